@@ -184,6 +184,28 @@ TEST_CASE("a unit that was pulled early is done again as soon as it is back") {
   CHECK(run.told() == "error not_back; pass 1 11");
 }
 
+TEST_CASE("a unit that is pulled early is told at once, whatever was done to it") {
+  const auto [to, delay] = GENERATE(table<double, double>({
+      {2.5, 1.0}, // nobody knew yet who it was
+      {4.5, 1.0},
+      {5.6, 3.5}, // it had been ordered to restart
+  }));
+  const int node_id = GENERATE(7, 0);
+  INFO(to << " s, node ID " << node_id);
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = to, .node_id = node_id},
+                                          {.serial = 101, .from = 20, .to = 60}}),
+                                    {"--count", "1", "--idle-timeout", "90", "--events", events});
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.records.back()["verdict"] == "pass");
+  constexpr double begin = 1735689600; // of the simulation
+  const auto gone = times_of("gone", events);
+  REQUIRE(gone.size() == 1);
+  CHECK(gone[0] - begin > to);
+  CHECK(gone[0] - begin < to + (node_id == 0 && to < 3 ? 2.1 : delay));
+}
+
 TEST_CASE("a unit whose answers do not come is told in the place of one that has passed") {
   const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 30, .node_id = 11},
                                           {.serial = 102,

@@ -364,6 +364,7 @@ void ProvisionRun::tell(StationStage stage) {
   case StationStage::waiting: return context_.reporter().progress(say<texts::provision_waits>());
   case StationStage::recognised: return context_.reporter().progress(say<texts::provision_asks>());
   case StationStage::working: return context_.reporter().progress(say<texts::provision_works>());
+  case StationStage::gone: return context_.reporter().progress(say<texts::provision_gone>());
   case StationStage::ended: return;
   case StationStage::take_off: break;
   }

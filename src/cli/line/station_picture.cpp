@@ -86,6 +86,7 @@ Sign sign_of(const StationPicture& picture) {
   case LineDeed::scan: return {bars, Look::in_block, false, texts::deed_scan};
   case LineDeed::leave: return {dots, Look::block, false, texts::deed_leave};
   case LineDeed::hands_off: return {barrier, Look::block, false, texts::deed_hands_off};
+  case LineDeed::bring_back: return {arrow_down, Look::in_block, false, texts::deed_connect_again};
   case LineDeed::plug_in: return {exclamation, Look::warning_block, false, texts::deed_plug_in};
   case LineDeed::mend: return {exclamation, Look::warning_block, false, texts::deed_mend};
   case LineDeed::take_off: break;
@@ -144,7 +145,8 @@ Face face_of(const StationPicture& picture) {
   return picture.last ? face_of(picture.last->verdict.value_or(""))
          : picture.deed == LineDeed::hands_off || picture.deed == LineDeed::leave
              ? Face{"BUSY", dots, Look::block, 0}
-             : Face{"READY", ring, Look::plain, 0};
+         : picture.deed == LineDeed::bring_back ? Face{"GONE", exclamation, Look::warning_block, 0}
+                                                : Face{"READY", ring, Look::plain, 0};
 }
 
 /// While its servo is there the verdict fills its part of the screen; after that it is written.
@@ -201,12 +203,15 @@ std::vector<ScreenLine> owed_lines(const StationPicture& picture, std::size_t wi
 
 void StationPicture::enter(StationStage stage) {
   switch (stage) {
-  case StationStage::waiting: deed = LineDeed::connect; return;
+  case StationStage::waiting: // one that left before it was known has no record
+    deed = deed == LineDeed::bring_back ? deed : LineDeed::connect;
+    return;
   case StationStage::recognised:
     deed = LineDeed::leave;
     last.reset();
     return;
   case StationStage::working: deed = LineDeed::hands_off; return;
+  case StationStage::gone: deed = LineDeed::bring_back; return;
   case StationStage::ended: return; // its record comes
   case StationStage::take_off: break;
   }

@@ -25,6 +25,7 @@ enum class LineDeed : std::uint8_t {
   scan,
   leave,
   hands_off,
+  bring_back, ///< it has gone too early
   take_off,
   plug_in, ///< the adapter
   mend,    ///< the bus

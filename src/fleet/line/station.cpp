@@ -6,6 +6,7 @@
 #include "blactl/fleet/change/change.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 
+#include "fleet/line/absence_watch.hpp"
 #include "fleet/line/acceptance.hpp"
 #include "fleet/line/acceptance_texts.hpp"
 #include "fleet/line/presence.hpp"
@@ -72,6 +73,7 @@ std::string_view name(StationStage stage) {
   case StationStage::waiting: return "waiting";
   case StationStage::recognised: return "recognised";
   case StationStage::working: return "working";
+  case StationStage::gone: return "gone";
   case StationStage::ended: return "ended";
   case StationStage::take_off: break;
   }
@@ -82,6 +84,8 @@ Station::Station(Session& session, const bla::Profiles& profiles, state::LedgerS
                  state::CounterStore& counters, Options options, StageHook entered)
     : session_(session), profiles_(profiles), ledger_(ledger), counters_(counters),
       options_(std::move(options)), entered_(std::move(entered)) {}
+
+Station::~Station() = default;
 
 Result<std::vector<LedgerRecord>> Station::end_interrupted() {
   auto begun = ledger_.begun(options_.common.station);
@@ -243,9 +247,13 @@ std::optional<Error> Station::number_and_configure(const Servo& servo, const Lab
 
 std::optional<Error> Station::configure(const Servo& servo, std::vector<bla::Assignment> settings,
                                         LedgerRecord& record) {
+  Manner manner = options_.manner;
+  manner.entered = [this](const Servo& /*servo*/, ChangeStage stage) {
+    watch_->expect_restart(stage == ChangeStage::save || stage == ChangeStage::restart);
+  };
   Change change(
       session_, profiles_,
-      {.manner = options_.manner, .knows_ids = true, .searched = session_.roster().last_heard()});
+      {.manner = std::move(manner), .knows_ids = true, .searched = session_.roster().last_heard()});
   const Goal goal{.id = servo.id,
                   .unique_id = servo.unique_id,
                   .wanted = {.assignments = settings, .restart = RestartKind::save},
@@ -261,7 +269,7 @@ std::optional<Error> Station::configure(const Servo& servo, std::vector<bla::Ass
   if (const auto begun = ledger_.begin(record); !begun) {
     return begun.error();
   }
-  entered_(StationStage::working);
+  go_to(StationStage::working);
   errors = change.carry_out();
   const GoalResult& result = change.results().front();
   enter(record, result);
@@ -319,7 +327,8 @@ Result<LedgerRecord> Station::commit(LedgerRecord record, Time began, std::strin
   record.station_seq = *number;
   reason_ = std::move(reason);
   remember(record);
-  entered_(StationStage::ended);
+  watch_.reset();
+  go_to(StationStage::ended);
   return record;
 }
 

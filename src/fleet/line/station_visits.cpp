@@ -7,6 +7,7 @@
 #include "blactl/fleet/line/line_record.hpp"
 #include "blactl/fleet/line/station.hpp"
 
+#include "fleet/line/absence_watch.hpp"
 #include "fleet/line/presence.hpp"
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -36,10 +38,6 @@ constexpr Duration longest_answer = 2s;
 /// Whether a unit that has asked since then waits for its node ID now.
 bool is_open(const Asking& asking, Time since, Time now) {
   return asking.last > asking.given && asking.last > now - request_period && asking.last > since;
-}
-
-bool may_be_bla_servo(const Member& member) {
-  return member.is_servo || (member.sends_actuator_status() && !member.is_foreign());
 }
 
 } // namespace
@@ -179,14 +177,26 @@ Result<void> Station::let_in() {
   return asked ? Result<void>() : std::unexpected(asked.error());
 }
 
+void Station::go_to(StationStage stage) {
+  stage_ = stage;
+  entered_(stage);
+}
+
+/// From now on the hook is told, too, that the servo has gone, and that it is back.
+void Station::watch_absence() {
+  watch_ = std::make_unique<AbsenceWatch>(
+      session_, [this](bool is_away) { entered_(is_away ? StationStage::gone : stage_); });
+}
+
 Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
-  entered_(StationStage::waiting);
+  go_to(StationStage::waiting);
   for (;;) {
     const auto came = session_.live_until(deadline, [this] { return is_servo_there(); });
     if (!came || !*came) {
       return came ? Result<std::optional<Arrival>>() : std::unexpected(came.error());
     }
-    entered_(StationStage::recognised);
+    go_to(StationStage::recognised);
+    watch_absence();
     Arrival arrival{
         .has_asked = is_asked() || last_.has_let_in, .at = session_.now(), .wall = session_.wall()};
     // what was heard until now may be of another unit on the same node ID, or of an allocator that
@@ -203,7 +213,8 @@ Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
     if (!arrival.ids.empty()) {
       return arrival;
     }
-    entered_(StationStage::waiting);
+    watch_.reset();
+    go_to(StationStage::waiting);
   }
 }
 
@@ -225,7 +236,8 @@ void Station::remember(const state::LedgerRecord& record) {
 }
 
 Result<Station::Leaving> Station::wait_until_off(Time deadline) {
-  entered_(StationStage::take_off);
+  watch_.reset();
+  go_to(StationStage::take_off);
   Succession succession(session_, options_.manner.identification.patience, last_);
   Time heard = session_.now();
   while (session_.now() - heard < off_time) {
@@ -243,7 +255,7 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
                              ? is_there
                              : succession.has_begun(servos) || is_other_asking() || has_lent;
     if (is_next && !last_.are_several) {
-      entered_(StationStage::recognised);
+      go_to(StationStage::recognised);
       const auto came = has_lent ? session_.live_until(session_.now() + longest_answer,
                                                        [this] { return is_servo_there(); })
                                  : Result<bool>(true);

@@ -176,6 +176,28 @@ TEST_CASE("a unit that was spoilt is shown by sign and number until it was finis
   CHECK(has(text_of(lines_of(picture, width, height)), "99"));
 }
 
+TEST_CASE("a servo that has gone too early is told by signs, also one that was not known yet") {
+  StationPicture picture;
+  picture.enter(fleet::StationStage::recognised);
+  picture.enter(fleet::StationStage::working);
+  picture.enter(fleet::StationStage::gone);
+  const auto is_told = [&] {
+    const auto lines = lines_of(picture, 53, 16);
+    return cells(lines, Look::in_block) > 100 && cells(lines, Look::warning) == 0 &&
+           cells(lines, Look::warning_block) > 30 && !has(text_of(lines), "DO NOT");
+  };
+  CHECK(is_told());
+  picture.enter(fleet::StationStage::working); // it was not
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "DO NOT TAKE IT OFF"));
+  picture.enter(fleet::StationStage::gone);
+  picture.enter(fleet::StationStage::waiting); // without a record
+  CHECK(is_told());
+  picture.enter(fleet::StationStage::recognised);
+  CHECK_FALSE(is_told());
+  picture.enter(fleet::StationStage::waiting);
+  CHECK_FALSE(is_told());
+}
+
 TEST_CASE("a tiny screen is no reason to fail") {
   const StationPicture picture{.last = record("pass")};
   for (std::size_t height : {0U, 1U, 4U, 5U, 6U}) {

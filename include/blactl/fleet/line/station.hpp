@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -23,11 +24,14 @@
 
 namespace blactl::fleet {
 
+class AbsenceWatch;
+
 /// What an operator can see of the work.
 enum class StationStage : std::uint8_t {
   waiting,    ///< for a servo
   recognised, ///< something was heard: it is asked what it is
   working,    ///< it is written to: it must not be taken off
+  gone,       ///< it fell silent before its end; the stage before follows if it is heard again
   ended,      ///< its record is in the ledger
   take_off,   ///< it is waited for that no servo is on the bus
 };
@@ -66,6 +70,9 @@ class Station {
   /// All references outlive this. `entered` is called for every stage.
   Station(Session& session, const bla::Profiles& profiles, state::LedgerStore& ledger,
           state::CounterStore& counters, Options options, StageHook entered);
+  ~Station();
+  Station(const Station&) = delete;
+  Station& operator=(const Station&) = delete;
 
   /// Ends what an earlier run of this station has begun and not ended: error, interrupted. Returns
   /// these records. Errors: those of the ledger.
@@ -112,6 +119,8 @@ class Station {
     std::map<dronecan::NodeId, Node> nodes{};
   };
 
+  void go_to(StationStage stage);
+  void watch_absence();
   [[nodiscard]] bool is_asked(Time since = Time::min()) const;
   [[nodiscard]] bool is_other_asking() const;
   void remember(const state::LedgerRecord& record);
@@ -140,6 +149,8 @@ class Station {
   Options options_;
   StageHook entered_;
   std::optional<Error> reason_;
+  StationStage stage_{};
+  std::unique_ptr<AbsenceWatch> watch_; ///< while a servo is not to be taken off
   Visit last_{};
 };
 
