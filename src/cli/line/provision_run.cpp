@@ -147,7 +147,10 @@ void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counte
   constexpr Duration between_bells = std::chrono::milliseconds(300);
   std::optional<fleet::Ticker> ticker;
   if (view_) {
-    ticker.emplace(context_.session(), between_bells, [this] { view_->tick(); });
+    ticker.emplace(context_.session(), between_bells, [this] {
+      context_.signal() != 0 ? view_->stop() : void();
+      view_->tick();
+    });
   }
   while (is_printed && !is_complete() && next(station)) {
   }

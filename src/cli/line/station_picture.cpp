@@ -142,11 +142,17 @@ std::vector<std::string> details(const StationPicture& picture) {
 }
 
 Face face_of(const StationPicture& picture) {
-  return picture.last ? face_of(picture.last->verdict.value_or(""))
-         : picture.deed == LineDeed::hands_off || picture.deed == LineDeed::leave
-             ? Face{"BUSY", dots, Look::block, 0}
-         : picture.deed == LineDeed::bring_back ? Face{"GONE", exclamation, Look::warning_block, 0}
-                                                : Face{"READY", ring, Look::plain, 0};
+  if (picture.last) {
+    return face_of(picture.last->verdict.value_or(""));
+  }
+  switch (picture.deed) {
+  case LineDeed::bring_back: return {"GONE", exclamation, Look::warning_block, 0};
+  case LineDeed::leave:
+  case LineDeed::hands_off:
+    return picture.is_stopping ? Face{"STOP", barrier, Look::warning_block, 0}
+                               : Face{"BUSY", dots, Look::block, 0};
+  default: return {"READY", ring, Look::plain, 0};
+  }
 }
 
 /// While its servo is there the verdict fills its part of the screen; after that it is written.
@@ -188,7 +194,9 @@ std::vector<ScreenLine> owed_lines(const StationPicture& picture, std::size_t wi
   for (const StationPicture::Owed& each : picture.owed) {
     face.word += (face.word.empty() ? "" : " ") + each.number;
   }
-  const std::size_t of_verdict = picture.last ? glyph_height + 1 + details(picture).size() : 0;
+  const bool is_news = picture.last || face_of(picture).look == Look::warning_block;
+  const std::size_t of_verdict =
+      is_news ? glyph_height + (picture.last ? 1 + details(picture).size() : 0) : 0;
   if (room < of_verdict + glyph_height || squares_of(face) > width) {
     return {centred("!  " + face.word + "  !", width, face.look)};
   }

@@ -46,6 +46,7 @@ struct StationPicture {
   std::string label{}; ///< that counts, or is being typed; shown in place of the note
   std::string note{};  ///< the last one
   std::vector<Owed> owed{};
+  bool is_stopping = false; ///< the present servo is the last one
 
   void enter(fleet::StationStage stage);
   void take(const state::LedgerRecord& record, const std::optional<Error>& why);

@@ -45,6 +45,12 @@ void StationView::lose_bus(bool is_away) {
   draw();
 }
 
+void StationView::stop() {
+  if (!std::exchange(picture_.is_stopping, true)) {
+    draw();
+  }
+}
+
 void StationView::take(const LedgerRecord& record, const std::optional<Error>& reason) {
   picture_.take(record, reason);
   draw();

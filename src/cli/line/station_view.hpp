@@ -31,6 +31,9 @@ class StationView {
   /// The bus is not there: its adapter is away, or something else.
   void lose_bus(bool is_away);
 
+  /// The run ends with the present servo.
+  void stop();
+
   void take(const state::LedgerRecord& record, const std::optional<Error>& reason);
 
   /// Rings what is still to be rung; called some times a second.

@@ -198,6 +198,21 @@ TEST_CASE("a servo that has gone too early is told by signs, also one that was n
   CHECK_FALSE(is_told());
 }
 
+TEST_CASE("a run that was stopped says so by a sign while it brings its servo to the end") {
+  for (const auto stage : {fleet::StationStage::working, fleet::StationStage::recognised}) {
+    StationPicture picture;
+    picture.enter(stage);
+    CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) == 0);
+    picture.is_stopping = true;
+    CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) > 50);
+    CHECK(cells(lines_of(picture, 80, 24), Look::warning_block) > 100);
+    CHECK(cells(lines_of(picture, 53, 16), Look::block) > 100); // what is to be left stays
+    picture.owed.push_back({"a", "104"});                          // and does not hide it
+    CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) > 50 + 53);
+    CHECK(has(text_of(lines_of(picture, 53, 16)), "104"));
+  }
+}
+
 TEST_CASE("a tiny screen is no reason to fail") {
   const StationPicture picture{.last = record("pass")};
   for (std::size_t height : {0U, 1U, 4U, 5U, 6U}) {
