@@ -127,6 +127,9 @@ std::vector<ScreenLine> lines_of(const Sign& sign, std::size_t width, bool is_ta
 /// Serial number, code and IDs: what is said about the last one.
 std::vector<std::string> details(const StationPicture& picture) {
   const LedgerRecord& record = *picture.last;
+  if (record.code == name(Code::label_mismatch) && record.expected && record.actual) {
+    return {fmt::format("{} ≠ {}", *record.expected, *record.actual), *record.code};
+  }
   std::vector<std::string> lines{record.serial_number ? std::to_string(*record.serial_number)
                                                       : printable(record.label.value_or(""))};
   if (record.code) {
@@ -207,6 +210,16 @@ std::vector<ScreenLine> owed_lines(const StationPicture& picture, std::size_t wi
   return lines;
 }
 
+/// Labels, else the note.
+ScreenLine last_line(const StationPicture& picture) {
+  if (picture.label.empty() && picture.waiting_labels == 0) {
+    return {{picture.note, Look::dim}};
+  }
+  const std::string waiting =
+      picture.waiting_labels > 0 ? fmt::format("   +{}", picture.waiting_labels) : std::string();
+  return {{say<texts::station_label>(printable(picture.label)) + waiting, Look::head}};
+}
+
 } // namespace
 
 void StationPicture::enter(StationStage stage) {
@@ -260,10 +273,7 @@ std::vector<ScreenLine> lines_of(const StationPicture& picture, std::size_t widt
   const auto& second = sign.is_on_top ? middle : signs;
   lines.insert(lines.end(), first.begin(), first.end());
   lines.insert(lines.end(), second.begin(), second.end());
-  lines.push_back(
-      picture.label.empty()
-          ? ScreenLine{{picture.note, Look::dim}}
-          : ScreenLine{{say<texts::station_label>(printable(picture.label)), Look::head}});
+  lines.push_back(last_line(picture));
   return lines;
 }
 

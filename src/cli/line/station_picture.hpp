@@ -43,8 +43,9 @@ struct StationPicture {
   LineDeed deed = LineDeed::connect;
   std::optional<state::LedgerRecord> last{}; ///< until the next servo is recognised
   std::optional<Error> reason{};
-  std::string label{}; ///< that counts, or is being typed; shown in place of the note
-  std::string note{};  ///< the last one
+  std::string label{};            ///< that counts, or is being typed; shown in place of the note
+  std::size_t waiting_labels = 0; ///< that were read ahead
+  std::string note{};             ///< the last one
   std::vector<Owed> owed{};
   bool is_stopping = false; ///< the present servo is the last one
 

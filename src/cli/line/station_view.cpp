@@ -35,8 +35,9 @@ void StationView::wait_for_label() {
   draw();
 }
 
-void StationView::show_label(std::string label) {
+void StationView::show_label(std::string label, std::size_t waiting) {
   picture_.label = std::move(label);
+  picture_.waiting_labels = waiting;
   draw();
 }
 

@@ -26,7 +26,9 @@ class StationView {
 
   void enter(fleet::StationStage stage);
   void wait_for_label();
-  void show_label(std::string label);
+
+  /// The one that counts or is being typed, and how many were read ahead.
+  void show_label(std::string label, std::size_t waiting);
 
   /// The bus is not there: its adapter is away, or something else.
   void lose_bus(bool is_away);

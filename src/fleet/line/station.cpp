@@ -46,6 +46,15 @@ Error at_station(Error error) {
   return error;
 }
 
+/// The label's serial number and that of the servo, where they differ.
+void enter_label_mismatch(LedgerRecord& record, const Label& label) {
+  if (label.serial_number && label.serial_number != record.serial_number) {
+    record.parameter = "serial_number";
+    record.expected = label.serial_number;
+    record.actual = record.serial_number;
+  }
+}
+
 /// The first setting that was read as something else.
 std::optional<Error> first_wrong(const Snapshot& held, std::span<const bla::Assignment> settings,
                                  LedgerRecord& record) {
@@ -195,6 +204,9 @@ Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label
     wrong = check_unit(servo, options_.recipe, label, profiles_);
   }
   if (wrong) {
+    if (wrong->code == Code::label_mismatch) {
+      enter_label_mismatch(record, *label);
+    }
     const std::string_view verdict = verdict_of(wrong->code);
     return commit(std::move(record), arrival.at, verdict, std::move(wrong));
   }

@@ -207,10 +207,29 @@ TEST_CASE("a run that was stopped says so by a sign while it brings its servo to
     CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) > 50);
     CHECK(cells(lines_of(picture, 80, 24), Look::warning_block) > 100);
     CHECK(cells(lines_of(picture, 53, 16), Look::block) > 100); // what is to be left stays
-    picture.owed.push_back({"a", "104"});                          // and does not hide it
+    picture.owed.push_back({"a", "104"});                       // and does not hide it
     CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) > 50 + 53);
     CHECK(has(text_of(lines_of(picture, 53, 16)), "104"));
   }
+}
+
+TEST_CASE("labels that were scanned ahead are counted, and of swapped ones both are shown") {
+  StationPicture picture{.deed = LineDeed::hands_off, .label = "403", .waiting_labels = 2};
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "label 403   +2"));
+  picture.label.clear();
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "+2"));
+  picture.waiting_labels = 0;
+  picture.note = "a note";
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "a note"));
+  auto swapped = record("fail");
+  swapped.code = "label_mismatch";
+  swapped.parameter = "serial_number";
+  swapped.expected = 240900559;
+  swapped.actual = swapped.serial_number;
+  picture.take(swapped, Error{Code::label_mismatch, "its serial number is another one"});
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
+  picture.owed.push_back({"b", "104"});
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
 }
 
 TEST_CASE("a tiny screen is no reason to fail") {
