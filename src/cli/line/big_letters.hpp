@@ -23,7 +23,6 @@ inline constexpr Glyph ring{".###.", "#...#", "#...#", "#...#", ".###."};
 inline constexpr Glyph cross{"#...#", ".#.#.", "..#..", ".#.#.", "#...#"};
 inline constexpr Glyph exclamation{"..#..", "..#..", "..#..", ".....", "..#.."};
 inline constexpr Glyph equal{".....", "#####", ".....", "#####", "....."};
-inline constexpr Glyph dots{".....", ".....", "#.#.#", ".....", "....."};
 
 /// A capital of the words of this room, a digit, or else a blank: four squares wide.
 [[nodiscard]] const Glyph& letter(char character);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -30,7 +31,7 @@ struct Face {
 Face face_of(const std::string& verdict) {
   return verdict == fleet::verdict::pass   ? Face{"PASS", ring, Look::good_block, 1}
          : verdict == fleet::verdict::fail ? Face{"FAIL", cross, Look::bad_block, 3}
-         : verdict == fleet::verdict::skip ? Face{"SKIP", equal, Look::block, 1}
+         : verdict == fleet::verdict::skip ? Face{"SKIP", equal, Look::skip_block, 1}
                                            : Face{"ERROR", exclamation, Look::warning_block, 2};
 }
 
@@ -64,6 +65,16 @@ ScreenLine big_row(const Face& face, std::size_t row, std::size_t width, Paint p
   return line;
 }
 
+/// That it goes on: one more dot with every beat.
+Glyph moving_dots(const StationPicture& picture) {
+  constexpr std::array<std::string_view, 4> rows{".....", "#....", "#.#..", "#.#.#"};
+  return {".....", ".....", rows.at(picture.beat % rows.size()), ".....", "....."};
+}
+
+bool is_busy(const StationPicture& picture) {
+  return !picture.last && (picture.deed == LineDeed::leave || picture.deed == LineDeed::hands_off);
+}
+
 /// How what is to be done now is told.
 struct Sign {
   Glyph symbol;
@@ -84,7 +95,7 @@ Sign sign_of(const StationPicture& picture) {
             : is(fleet::verdict::error) ? texts::deed_connect_again
                                         : texts::deed_connect};
   case LineDeed::scan: return {bars, Look::in_block, false, texts::deed_scan};
-  case LineDeed::leave: return {dots, Look::block, false, texts::deed_leave};
+  case LineDeed::leave: return {moving_dots(picture), Look::block, false, texts::deed_leave};
   case LineDeed::hands_off: return {barrier, Look::block, false, texts::deed_hands_off};
   case LineDeed::bring_back: return {arrow_down, Look::in_block, false, texts::deed_connect_again};
   case LineDeed::plug_in: return {exclamation, Look::warning_block, false, texts::deed_plug_in};
@@ -153,7 +164,7 @@ Face face_of(const StationPicture& picture) {
   case LineDeed::leave:
   case LineDeed::hands_off:
     return picture.is_stopping ? Face{"STOP", barrier, Look::warning_block, 0}
-                               : Face{"BUSY", dots, Look::block, 0};
+                               : Face{"BUSY", moving_dots(picture), Look::block, 0};
   default: return {"READY", ring, Look::plain, 0};
   }
 }
@@ -251,6 +262,11 @@ void StationPicture::take(const LedgerRecord& record, const std::optional<Error>
   if (record.verdict == fleet::verdict::error && record.serial_number) {
     owed.push_back({*record.unique_id, std::to_string(*record.serial_number)});
   }
+}
+
+bool StationPicture::tick() {
+  ++beat;
+  return is_busy(*this);
 }
 
 int StationPicture::bells() const {

@@ -48,9 +48,13 @@ struct StationPicture {
   std::string note{};             ///< the last one
   std::vector<Owed> owed{};
   bool is_stopping = false; ///< the present servo is the last one
+  std::size_t beat = 0;     ///< of what moves
 
   void enter(fleet::StationStage stage);
   void take(const state::LedgerRecord& record, const std::optional<Error>& why);
+
+  /// Called some times a second; returns whether something has moved.
+  [[nodiscard]] bool tick();
 
   /// How often the bell rings for it.
   [[nodiscard]] int bells() const;

@@ -64,6 +64,9 @@ void StationView::tick() {
     --bells_;
     Screen::ring();
   }
+  if (picture_.tick()) {
+    draw();
+  }
 }
 
 void StationView::draw() {

@@ -38,7 +38,7 @@ class StationView {
 
   void take(const state::LedgerRecord& record, const std::optional<Error>& reason);
 
-  /// Rings what is still to be rung; called some times a second.
+  /// Rings what is still to be rung, and moves what moves; called some times a second.
   void tick();
 
   void draw();

@@ -1,6 +1,7 @@
 #include "catch.hpp"
 #include "cli/line/station_picture.hpp"
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,7 +69,7 @@ TEST_CASE("the verdict fills the screen, whatever its size, and what to do is in
   for (const Case& each : {Case{"pass", Look::good_block, "TAKE IT OFF", "外して下さい"},
                            Case{"fail", Look::bad_block, "PUT IT ASIDE", "不合格品置き場へ"},
                            Case{"error", Look::warning_block, "TAKE IT OFF", "外して下さい"},
-                           Case{"skip", Look::block, "TAKE IT OFF", "外して下さい"}}) {
+                           Case{"skip", Look::skip_block, "TAKE IT OFF", "外して下さい"}}) {
     INFO(each.verdict);
     picture.last = record(each.verdict);
     const auto lines = lines_of(picture, width, height);
@@ -230,6 +231,21 @@ TEST_CASE("labels that were scanned ahead are counted, and of swapped ones both 
   CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
   picture.owed.push_back({"b", "104"});
   CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
+}
+
+TEST_CASE("while the station is busy something moves") {
+  StationPicture picture{.deed = LineDeed::leave};
+  for (const auto deed : {LineDeed::leave, LineDeed::hands_off}) {
+    picture.deed = deed;
+    std::set<std::size_t> lit;
+    for (int i = 0; i < 4; ++i) {
+      CHECK(picture.tick());
+      lit.insert(cells(lines_of(picture, 53, 16), Look::block));
+    }
+    CHECK(lit.size() > 2);
+  }
+  picture.deed = LineDeed::connect;
+  CHECK_FALSE(picture.tick()); // nothing to draw
 }
 
 TEST_CASE("a tiny screen is no reason to fail") {
