@@ -206,6 +206,31 @@ TEST_CASE("a unit that is pulled early is told at once, whatever was done to it"
   CHECK(gone[0] - begin < to + (node_id == 0 && to < 3 ? 2.1 : delay));
 }
 
+TEST_CASE("a unit that was pulled and is back as its answers are given up was pulled") {
+  const double back = GENERATE(4.5, 6.0, 7.0, 7.5, 8.0);
+  INFO(back);
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 3.3, .node_id = 7},
+                                          {.serial = 101, .from = back, .to = 60}}),
+                                    {"--count", "1", "--idle-timeout", "90"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.records.back()["verdict"] == "pass");
+  for (std::size_t i = 0; i + 1 < run.records.size(); ++i) {
+    CHECK(run.records[i]["code"] == "not_back");
+  }
+}
+
+TEST_CASE("a unit that restarts for ever is given up, and done again after it was taken off") {
+  std::vector<Visit> visits;
+  constexpr double period = 5.4;
+  for (int i = 0; i < 10; ++i) { // it never comes to its end, and is never silent for 3 s
+    visits.push_back({.serial = 101, .from = 1 + period * i, .to = 4 + period * i, .node_id = 7});
+  }
+  visits.push_back({.serial = 101, .from = 70, .to = 110});
+  const Provisioned run = provision(line(visits), {"--count", "1", "--idle-timeout", "90"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "error not_back; error not_back; error not_back; pass 1 11");
+}
+
 TEST_CASE("a unit whose answers do not come is told in the place of one that has passed") {
   const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 30, .node_id = 11},
                                           {.serial = 102,

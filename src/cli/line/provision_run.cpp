@@ -252,7 +252,8 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
   const auto& reason = station.reason();
   tell_event(*record->verdict, &*record, reason ? reason->message : std::string());
   logs_.keep(*record);
-  const bool is_printed = print(*record, reason);
+  view_ ? view_->take(*record, reason, station.is_repeating()) : void();
+  const bool is_printed = view_ || print(*record, reason);
   account(*record, reason);
   if (record->verdict != fleet::verdict::error) {
     label_.reset();
@@ -290,10 +291,6 @@ bool ProvisionRun::take_off(Station& station) {
 
 bool ProvisionRun::print(const LedgerRecord& record, const std::optional<Error>& reason) {
   const Reporter& reporter = context_.reporter();
-  if (view_) {
-    view_->take(record, reason);
-    return true;
-  }
   return put(record_line(record, reporter.format(), reporter.page(), reason));
 }
 

@@ -247,13 +247,15 @@ void StationPicture::enter(StationStage stage) {
   case StationStage::ended: return; // its record comes
   case StationStage::take_off: break;
   }
-  deed = reason && fleet::is_done_again(reason->code) ? LineDeed::connect : LineDeed::take_off;
+  deed = is_repeating ? LineDeed::connect : LineDeed::take_off;
 }
 
-void StationPicture::take(const LedgerRecord& record, const std::optional<Error>& why) {
+void StationPicture::take(const LedgerRecord& record, const std::optional<Error>& why,
+                          bool is_again) {
   totals.add(record);
   last = record;
   reason = why;
+  is_repeating = is_again;
   enter(StationStage::take_off);
   if (!record.unique_id) {
     return;

@@ -43,6 +43,7 @@ struct StationPicture {
   LineDeed deed = LineDeed::connect;
   std::optional<state::LedgerRecord> last{}; ///< until the next servo is recognised
   std::optional<Error> reason{};
+  bool is_repeating = false;      ///< as Station::is_repeating()
   std::string label{};            ///< that counts, or is being typed; shown in place of the note
   std::size_t waiting_labels = 0; ///< that were read ahead
   std::string note{};             ///< the last one
@@ -51,7 +52,7 @@ struct StationPicture {
   std::size_t beat = 0;     ///< of what moves
 
   void enter(fleet::StationStage stage);
-  void take(const state::LedgerRecord& record, const std::optional<Error>& why);
+  void take(const state::LedgerRecord& record, const std::optional<Error>& why, bool is_again);
 
   /// Called some times a second; returns whether something has moved.
   [[nodiscard]] bool tick();

@@ -52,8 +52,9 @@ void StationView::stop() {
   }
 }
 
-void StationView::take(const LedgerRecord& record, const std::optional<Error>& reason) {
-  picture_.take(record, reason);
+void StationView::take(const LedgerRecord& record, const std::optional<Error>& reason,
+                       bool is_repeating) {
+  picture_.take(record, reason, is_repeating);
   draw();
   bells_ = picture_.bells();
   tick();

@@ -36,7 +36,9 @@ class StationView {
   /// The run ends with the present servo.
   void stop();
 
-  void take(const state::LedgerRecord& record, const std::optional<Error>& reason);
+  /// `is_repeating`: as that of the station.
+  void take(const state::LedgerRecord& record, const std::optional<Error>& reason,
+            bool is_repeating);
 
   /// Rings what is still to be rung, and moves what moves; called some times a second.
   void tick();

@@ -33,7 +33,7 @@ void AbsenceWatch::look() {
   }
   patience = is_restarting_ ? off_time : patience;
   const bool is_away = !session_.away() && session_.now() - last > patience;
-  was_away_ = was_away_ || is_away;
+  was_away_ = was_away_ || (is_away && !is_restarting_);
   if (std::exchange(is_away_, is_away) != is_away) {
     hook_(is_away);
   }

@@ -17,7 +17,7 @@ class AbsenceWatch {
   /// Whether it has been ordered to restart: then a longer silence is no absence.
   void expect_restart(bool is_expected) { is_restarting_ = is_expected; }
 
-  /// Whether it was away at any time.
+  /// Whether it was away at any time, without an order to restart.
   [[nodiscard]] bool was_away() const { return was_away_; }
 
  private:

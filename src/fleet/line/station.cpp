@@ -183,12 +183,14 @@ Error Station::unless_away(Error error, NodeId id) const {
   if (error.code == Code::state && is_beside_another(id)) {
     return several(id.value());
   }
-  const bool is_away = session_.roster().member(id).last_heard < session_.now() - away_time;
-  const bool is_silence = error.code == Code::timeout || error.code == Code::not_found ||
-                          error.code == Code::not_back || error.code == Code::mismatch;
-  return is_away && is_silence ? Error{Code::not_back, say<texts::station_pulled>(),
-                                       say<texts::station_pulled_hint>(), id.value()}
-                               : error;
+  const bool is_silence = error.code == Code::timeout || error.code == Code::not_found;
+  const bool is_away = session_.roster().member(id).last_heard < session_.now() - away_time &&
+                       (is_silence || error.code == Code::not_back || error.code == Code::mismatch);
+  // it may be back as its answers are given up
+  const bool was_away = watch_->was_away() && (is_silence || error.code == Code::state);
+  return is_away || was_away ? Error{Code::not_back, say<texts::station_pulled>(),
+                                     say<texts::station_pulled_hint>(), id.value()}
+                             : error;
 }
 
 Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label) {

@@ -32,6 +32,9 @@ using namespace std::chrono_literals;
 /// How often a silent bus is looked at.
 constexpr Duration look_period = 100ms;
 
+/// A unit that was so often spoilt without having been off restarts by itself: it would never end.
+constexpr unsigned most_spoilt_in_row = 3;
+
 /// Who has not told by then who it is counts as another unit.
 constexpr Duration longest_answer = 2s;
 
@@ -219,12 +222,18 @@ Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
 }
 
 void Station::remember(const state::LedgerRecord& record) {
+  constexpr std::size_t size = std::tuple_size_v<UniqueId>;
+  const auto unit = record.unique_id ? from_hex<size>(*record.unique_id) : std::nullopt;
+  const bool is_spoilt = reason_ && reason_->code == Code::not_back;
+  const bool is_same = unit && last_.unit == *unit;
+  const unsigned spoilt = is_spoilt ? 1 + (is_same ? last_.spoilt : 0) : 0;
   last_ = {.may_ask = record.static_node_id.value_or(0) == 0,
            .are_several = reason_ && reason_->code == Code::several_servos,
-           .is_to_be_repeated = reason_ && is_done_again(reason_->code),
+           .is_to_be_repeated =
+               reason_ && is_done_again(reason_->code) && spoilt < most_spoilt_in_row,
+           .spoilt = spoilt,
            .end = session_.now()};
-  constexpr std::size_t size = std::tuple_size_v<UniqueId>;
-  if (const auto unit = record.unique_id ? from_hex<size>(*record.unique_id) : std::nullopt) {
+  if (unit) {
     last_.unit = *unit;
   }
   for (const NodeId id : servos_there()) {

@@ -148,7 +148,7 @@ TEST_CASE("a unit that was spoilt is shown by sign and number until it was finis
   StationPicture picture;
   auto spoilt = record("error", "a");
   spoilt.code = "not_back";
-  picture.take(spoilt, pulled);
+  picture.take(spoilt, pulled, true);
   const auto sees = [&](bool is_big) {
     const auto lines = lines_of(picture, width, height);
     REQUIRE(lines.size() == height);
@@ -161,14 +161,14 @@ TEST_CASE("a unit that was spoilt is shown by sign and number until it was finis
   picture.enter(fleet::StationStage::waiting); // and has gone
   CHECK(sees(true));
   picture.enter(fleet::StationStage::working);
-  picture.take(record("pass", "b"), std::nullopt);
+  picture.take(record("pass", "b"), std::nullopt, false);
   CHECK(sees(is_large));
   CHECK(cells(lines_of(picture, width, height), Look::good_block) > 4 * width);
   picture.enter(fleet::StationStage::recognised);
-  picture.take(record("pass", "a"), std::nullopt);
+  picture.take(record("pass", "a"), std::nullopt, false);
   CHECK(cells(lines_of(picture, width, height), Look::warning_block) == 0);
   for (const auto* unit : {"c", "d", "e", "f"}) { // more than have room
-    picture.take(record("error", unit), pulled);
+    picture.take(record("error", unit), pulled, true);
   }
   for (const ScreenLine& line : lines_of(picture, width, height)) {
     CHECK(display_width(text_of(line)) <= width);
@@ -227,7 +227,7 @@ TEST_CASE("labels that were scanned ahead are counted, and of swapped ones both 
   swapped.parameter = "serial_number";
   swapped.expected = 240900559;
   swapped.actual = swapped.serial_number;
-  picture.take(swapped, Error{Code::label_mismatch, "its serial number is another one"});
+  picture.take(swapped, Error{Code::label_mismatch, "its serial number is another one"}, false);
   CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
   picture.owed.push_back({"b", "104"});
   CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
@@ -246,6 +246,18 @@ TEST_CASE("while the station is busy something moves") {
   }
   picture.deed = LineDeed::connect;
   CHECK_FALSE(picture.tick()); // nothing to draw
+}
+
+TEST_CASE("a unit that restarts for ever has to be taken off, not connected again") {
+  StationPicture picture;
+  for (const bool is_repeating : {true, false}) {
+    auto spoilt = record("error");
+    spoilt.code = "not_back";
+    picture.take(spoilt, Error{Code::not_back, "it was taken off too early"}, is_repeating);
+    const auto lines = lines_of(picture, 80, 24);
+    CHECK((cells(lines, Look::in_block) > 0) == is_repeating);
+    CHECK((cells(lines, Look::out_block) > 0) != is_repeating);
+  }
 }
 
 TEST_CASE("a tiny screen is no reason to fail") {

@@ -92,6 +92,9 @@ class Station {
   /// Why the last record is no pass; empty: it is, or its end is no error.
   [[nodiscard]] const std::optional<Error>& reason() const { return reason_; }
 
+  /// Whether the last one is done again as soon as a servo is heard; else it has to be taken off.
+  [[nodiscard]] bool is_repeating() const { return last_.is_to_be_repeated; }
+
   /// Waits until no servo has been heard for 3 s, or until another unit than the last one is there:
   /// whoever comes, restarts or was silent is asked who it is. After the wait was broken off by an
   /// error it may be called again. Errors: those that end a session.
@@ -107,6 +110,7 @@ class Station {
     bool may_ask = false;                     ///< for a node ID, after a restart
     bool are_several = false;                 ///< all of them have to go
     bool is_to_be_repeated = false;           ///< as soon as a servo is there
+    unsigned spoilt = 0;                      ///< so often in a row, without having been off
     bool has_let_in = false;                  ///< one that asked after its end
     Time end{};
 
