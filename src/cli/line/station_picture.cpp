@@ -215,6 +215,7 @@ std::vector<ScreenLine> owed_lines(const StationPicture& picture, std::size_t wi
     return {centred("!  " + face.word + "  !", width, face.look)};
   }
   std::vector<ScreenLine> lines;
+  lines.reserve(glyph_height);
   for (std::size_t row = 0; row < glyph_height; ++row) {
     lines.push_back(big_row(face, row, width, {face.look, Look::plain}));
   }

@@ -210,6 +210,7 @@ Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
     const auto let = heard && is_asked() ? let_in() : heard;
     const auto found = let ? discovery.find_all(bus_watch_time) : let;
     if (!found) {
+      watch_.reset();
       return std::unexpected(found.error());
     }
     arrival.ids = servos_there();
