@@ -250,22 +250,22 @@ Result<std::vector<std::int64_t>> CounterStore::assign(const UniqueId& unique_id
   });
 }
 
-Result<std::set<UniqueId>> CounterStore::units(const std::string& recipe,
-                                               const std::string& parameter) const {
-  std::set<UniqueId> units;
+Result<std::vector<UniqueId>> CounterStore::units(const std::string& recipe,
+                                                  const std::string& parameter) const {
+  std::vector<UniqueId> units;
   const Database* database = file_->database();
   if (database == nullptr) {
     return units;
   }
   Statement statement(*database,
                       "SELECT unique_id FROM assignments WHERE recipe = ? AND parameter = "
-                      "? AND unique_id IS NOT NULL");
+                      "? AND unique_id IS NOT NULL ORDER BY unique_id");
   statement.bind(recipe).bind(parameter);
   const auto read = statement.each([&] {
-    units.insert(statement.array<std::tuple_size_v<UniqueId>>(0));
+    units.push_back(statement.array<std::tuple_size_v<UniqueId>>(0));
     return true;
   });
-  return read ? Result<std::set<UniqueId>>(std::move(units)) : std::unexpected(read.error());
+  return read ? Result<std::vector<UniqueId>>(std::move(units)) : std::unexpected(read.error());
 }
 
 Result<void> CounterStore::back_up(const std::string& file) const {

@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -341,6 +344,43 @@ Result<void> LedgerStore::each(const LedgerQuery& query,
       return {};
     }
   }
+}
+
+Result<std::map<std::string, PassedIds>> LedgerStore::passed(const std::string& recipe) const {
+  std::map<std::string, PassedIds> passed;
+  const Database* database = file_->database();
+  constexpr std::int64_t block = 8192; // nobody can commit during a read
+  std::int64_t last = 0, count = database != nullptr ? block : 0;
+  while (count == block) {
+    Statement statement(*database, fmt::format("SELECT number, unique_id, verdict, servo_id, "
+                                               "static_node_id FROM ledger WHERE number > {} AND "
+                                               "recipe = ? AND verdict IN ('pass', 'scrap') AND "
+                                               "unique_id IS NOT NULL ORDER BY number LIMIT {}",
+                                               last, block));
+    statement.bind(recipe);
+    count = 0;
+    const auto id = [&](int place) {
+      return statement.is_null(place) ? std::optional<std::int64_t>() : statement.integer(place);
+    };
+    const auto read = statement.each([&] {
+      if (statement.integer(0) <= last) { // a damaged file would be read for ever
+        statement.reject();
+      }
+      last = statement.integer(0);
+      ++count;
+      const std::string unit(statement.text(1));
+      if (statement.text(2) == "pass") {
+        passed.insert_or_assign(unit, PassedIds{id(3), id(4)});
+      } else {
+        passed.erase(unit);
+      }
+      return true;
+    });
+    if (!read) {
+      return std::unexpected(read.error());
+    }
+  }
+  return passed;
 }
 
 const std::string& LedgerStore::path() const {

@@ -2,6 +2,8 @@
 
 #include "catch.hpp"
 #include "line.hpp"
+#include "run.hpp"
+#include "scene.hpp"
 
 #include <string>
 #include <vector>
@@ -12,6 +14,17 @@ namespace {
 
 /// Two records, with an end for a run that waits in vain.
 const Arguments two_records{"--count", "2", "--idle-timeout", "90"};
+
+/// When each of these events happened, by a file of --events; seconds.
+std::vector<double> times_of(const std::string& event, const std::string& file) {
+  std::vector<double> times;
+  for (const auto& line : json_lines(content(file))) {
+    if (line["event"] == event) {
+      times.push_back(line["time"]);
+    }
+  }
+  return times;
+}
 
 const std::string dynamic_recipe = R"({
   "schema": "blactl-recipe/1", "name": "dynamic", "model": "BLA21-12U-AB",
@@ -114,6 +127,46 @@ TEST_CASE("units whose unique IDs begin alike are told apart when they ask for a
   CHECK(run.records.back()["node_id"] == 0); // it asked
 }
 
+TEST_CASE("an old verdict does not stand over another unit that asks for a node ID") {
+  const std::string first = "00000000000000000000000000000101";
+  const auto [second, delay] = GENERATE(table<std::string, double>({
+      {"ff000000000000000000000000000102", 0.7}, // its first request tells that it is another
+      {"00000000000000000000000000000102", 1.6}, // all of its unique ID does
+  }));
+  const double pause = GENERATE(0.1, 1.0, 2.0);
+  INFO(second << " after " << pause << " s");
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run = provision(
+      line({{.serial = 101, .from = 1, .to = 30, .more = {{"unique_id", first}}},
+            {.serial = 102, .from = 30 + pause, .to = 90, .more = {{"unique_id", second}}}}),
+      {"--count", "2", "--idle-timeout", "90", "--events", events}, {}, dynamic_recipe);
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.told() == "pass 1 0; pass 2 0");
+  const auto recognised = times_of("recognised", events);
+  REQUIRE(recognised.size() >= 2);
+  CHECK(recognised[1] - recognised[0] < 29 + pause + delay); // as long after it came as the first
+  for (const double waits : times_of("waiting", events)) {   // nobody shall connect one more
+    CHECK((waits < recognised[0] || waits - recognised[1] < 0.01));
+  }
+}
+
+TEST_CASE("another unit that asks for a node ID beside the last one is told at once") {
+  const std::string alike = "000000000000000000000000000001";
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run =
+      provision(line({{.serial = 101, .from = 1, .to = 50, .more = {{"unique_id", alike + "01"}}},
+                      {.serial = 102, .from = 30, .to = 50, .more = {{"unique_id", alike + "02"}}},
+                      {.serial = 102, .from = 60, .to = 90}}),
+                {"--count", "2", "--idle-timeout", "90", "--events", events}, {}, dynamic_recipe);
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.told() == "pass 1 0; error several_servos; pass 2 0");
+  const auto recognised = times_of("recognised", events);
+  REQUIRE(recognised.size() >= 2);
+  CHECK(recognised[1] - recognised[0] < 29 + 0.7);
+}
+
 TEST_CASE("a label is that of the unit that took the place of the last one") {
   const Provisioned run =
       provision(line({{.serial = 101, .from = 1, .to = 30, .node_id = 11},
@@ -129,6 +182,53 @@ TEST_CASE("a unit that was pulled early is done again as soon as it is back") {
                                     {"--count", "1", "--idle-timeout", "90"});
   INFO(run.result.out << run.result.err);
   CHECK(run.told() == "error not_back; pass 1 11");
+}
+
+TEST_CASE("a unit that is pulled early is told at once, whatever was done to it") {
+  const auto [to, delay] = GENERATE(table<double, double>({
+      {2.5, 1.0}, // nobody knew yet who it was
+      {4.5, 1.0},
+      {5.6, 3.5}, // it had been ordered to restart
+  }));
+  const int node_id = GENERATE(7, 0);
+  INFO(to << " s, node ID " << node_id);
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = to, .node_id = node_id},
+                                          {.serial = 101, .from = 20, .to = 60}}),
+                                    {"--count", "1", "--idle-timeout", "90", "--events", events});
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.records.back()["verdict"] == "pass");
+  constexpr double begin = 1735689600; // of the simulation
+  const auto gone = times_of("gone", events);
+  REQUIRE(gone.size() == 1);
+  CHECK(gone[0] - begin > to);
+  CHECK(gone[0] - begin < to + (node_id == 0 && to < 3 ? 2.1 : delay));
+}
+
+TEST_CASE("a unit that was pulled and is back as its answers are given up was pulled") {
+  const double back = GENERATE(4.5, 6.0, 7.0, 7.5, 8.0);
+  INFO(back);
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 3.3, .node_id = 7},
+                                          {.serial = 101, .from = back, .to = 60}}),
+                                    {"--count", "1", "--idle-timeout", "90"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.records.back()["verdict"] == "pass");
+  for (std::size_t i = 0; i + 1 < run.records.size(); ++i) {
+    CHECK(run.records[i]["code"] == "not_back");
+  }
+}
+
+TEST_CASE("a unit that restarts for ever is given up, and done again after it was taken off") {
+  std::vector<Visit> visits;
+  constexpr double period = 5.4;
+  for (int i = 0; i < 10; ++i) { // it never comes to its end, and is never silent for 3 s
+    visits.push_back({.serial = 101, .from = 1 + period * i, .to = 4 + period * i, .node_id = 7});
+  }
+  visits.push_back({.serial = 101, .from = 70, .to = 110});
+  const Provisioned run = provision(line(visits), {"--count", "1", "--idle-timeout", "90"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "error not_back; error not_back; error not_back; pass 1 11");
 }
 
 TEST_CASE("a unit whose answers do not come is told in the place of one that has passed") {

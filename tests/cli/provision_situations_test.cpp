@@ -146,6 +146,19 @@ TEST_CASE("a bus that is off goes on when it is back, with the same unit") {
   }
 }
 
+TEST_CASE("nobody is told as gone while the bus is off") {
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 2.2, .node_id = 7},
+                                          {.serial = 101, .from = 30, .to = 60}})
+                                        .clients("bus_off", "1800ms"),
+                                    {"--count", "1", "--idle-timeout", "60", "--events", events});
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.records.back()["verdict"] == "pass");
+  CHECK(contains(content(events), "no_bus"));
+  CHECK_FALSE(contains(content(events), "gone"));
+}
+
 TEST_CASE("an adapter that is lost is waited for, and its unit is done again") {
   const Bench bench;
   const std::string scenario = bench.file("real.json", R"({"schema": "blactl-scenario/1",

@@ -111,6 +111,9 @@ TEST_CASE("labels are compared, and tell IDs") {
                                R"({"serial_number": 103, "servo_id": 7, "work_order": "W9"})"});
   INFO(run.result.out << run.result.err);
   CHECK(run.told() == "pass 1 11; fail label_mismatch; pass 7 12");
+  CHECK(run.records[1]["parameter"] == "serial_number");
+  CHECK(run.records[1]["expected"] == 999);
+  CHECK(run.records[1]["actual"] == 102);
   CHECK(run.records[2]["work_order"] == "W9");
   CHECK(run.result.status == 6);
   CHECK(contains(run.result.err, "nonsense"));

@@ -6,6 +6,7 @@
 import json
 import os
 import sys
+import time
 
 from terminal import Terminal, run_tests
 
@@ -54,6 +55,20 @@ def places(blactl):
             terminal.shows_no_more("CONNECT A SERVO")
 
 
+def stopped(blactl):
+    """Ctrl-C in the middle of the work: the present servo comes to its end, and that is a sign."""
+    slow = [{**SERVOS[0], "faults": {"return_delay": "2500ms"}}]
+    with Terminal(blactl, slow, 53, 16) as terminal:
+        provision(terminal)
+        terminal.shows("DO NOT TAKE IT OFF")
+        time.sleep(1)  # it restarts by now
+        terminal.type("C-c")
+        terminal.wait_for(lambda _: "\x1b[33m" in terminal.tmux("capture-pane", "-e", "-p"),
+                          "no sign")
+        terminal.shows("DO NOT TAKE IT OFF")
+        terminal.shows("error 1 skip 0")
+
+
 def labels(blactl):
     """Typed ones are shown, can be corrected, and end with Ctrl-D."""
     with Terminal(blactl, SERVOS, 80, 24) as terminal:
@@ -64,6 +79,10 @@ def labels(blactl):
         terminal.type("BSpace", "1", "Enter")
         lines = terminal.shows("label 101")
         lines = terminal.shows("pass 1")
+        terminal.type("102", "Enter", "10")
+        terminal.shows("label 10   +1")
+        terminal.type("3", "Enter")
+        terminal.shows("+2")
         require("fail 0" in lines[1], "the label was not corrected", lines)
         terminal.type("C-c")
         terminal.shows_no_more("TAKE IT OFF")
@@ -74,7 +93,7 @@ def labels(blactl):
         terminal.shows("status 0")
 
 
-TESTS = (verdicts, places, labels)
+TESTS = (verdicts, places, stopped, labels)
 
 
 if __name__ == "__main__":

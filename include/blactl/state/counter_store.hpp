@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,9 +67,9 @@ class CounterStore {
                                                          std::span<const IdWish> wishes,
                                                          WallTime now);
 
-  /// The units that have an ID of this parameter by this recipe.
-  [[nodiscard]] Result<std::set<dronecan::UniqueId>> units(const std::string& recipe,
-                                                           const std::string& parameter) const;
+  /// The units that have an ID of this parameter by this recipe, in order.
+  [[nodiscard]] Result<std::vector<dronecan::UniqueId>> units(const std::string& recipe,
+                                                              const std::string& parameter) const;
 
   /// Copies the whole table, of one moment, into a new file. Further errors: io: it cannot be
   /// written, or is there already; state: there is nothing to copy.

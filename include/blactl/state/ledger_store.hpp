@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,13 @@ struct LedgerHole {
   std::int64_t first = 0, last = 0;
 
   friend bool operator==(const LedgerHole&, const LedgerHole&) = default;
+};
+
+/// The IDs with which a unit has passed.
+struct PassedIds {
+  std::optional<std::int64_t> servo_id{}, static_node_id{};
+
+  friend bool operator==(const PassedIds&, const PassedIds&) = default;
 };
 
 /// Records in `ledger.db` of a folder: an SQLite database that several stations of a machine use at
@@ -88,6 +96,11 @@ class LedgerStore {
   /// records meanwhile, which come too.
   [[nodiscard]] Result<void> each(const LedgerQuery& query,
                                   const std::function<bool(const LedgerRecord&)>& take) const;
+
+  /// The units that have passed by this recipe, and were not scrapped since, by unique ID as in the
+  /// records; with the IDs of their last pass. For ledgers of any length: no record is read as a
+  /// whole.
+  [[nodiscard]] Result<std::map<std::string, PassedIds>> passed(const std::string& recipe) const;
 
   /// The path of its file, even if that does not exist yet; empty: it has none.
   [[nodiscard]] const std::string& path() const;

@@ -38,6 +38,24 @@ void LabelLines::read() {
   }
 }
 
+namespace {
+
+bool is_blank_line(std::string_view line) {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+} // namespace
+
+std::size_t LabelLines::waiting() const {
+  std::size_t count = 0;
+  std::string_view rest = text_;
+  for (auto end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
+    count += is_blank_line(rest.substr(0, end)) ? 0U : 1U;
+    rest.remove_prefix(end + 1);
+  }
+  return count;
+}
+
 std::string_view LabelLines::unfinished() const {
   const std::string_view text = text_;
   return text.substr(text.rfind('\n') + 1); // npos + 1 is 0
@@ -77,7 +95,7 @@ std::optional<std::string> LabelLines::take_line() {
 std::optional<std::string> LabelLines::next() {
   for (;;) {
     auto line = take_line();
-    if (!line || line->find_first_not_of(" \t\r") != std::string::npos) {
+    if (!line || !is_blank_line(*line)) {
       return line;
     }
   }

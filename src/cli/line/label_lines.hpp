@@ -31,6 +31,9 @@ class LabelLines {
   /// The line that is being typed.
   [[nodiscard]] std::string_view unfinished() const;
 
+  /// How many whole lines that are not blank wait for next().
+  [[nodiscard]] std::size_t waiting() const;
+
   /// Whether a whole line is there, or stdin has ended.
   [[nodiscard]] bool is_ready() const;
 

@@ -25,10 +25,10 @@ void ProvisionRun::open_labels() {
   }
 }
 
-/// The one that counts, else what was typed so far.
+/// The one that counts, else what was typed so far; and that more were typed ahead.
 void ProvisionRun::show_label() {
   if (view_ && lines_) {
-    view_->show_label(label_ ? label_->text : std::string(lines_->unfinished()));
+    view_->show_label(label_ ? label_->text : std::string(lines_->unfinished()), lines_->waiting());
   }
 }
 

@@ -147,7 +147,10 @@ void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counte
   constexpr Duration between_bells = std::chrono::milliseconds(300);
   std::optional<fleet::Ticker> ticker;
   if (view_) {
-    ticker.emplace(context_.session(), between_bells, [this] { view_->tick(); });
+    ticker.emplace(context_.session(), between_bells, [this] {
+      context_.signal() != 0 ? view_->stop() : void();
+      view_->tick();
+    });
   }
   while (is_printed && !is_complete() && next(station)) {
   }
@@ -249,7 +252,8 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
   const auto& reason = station.reason();
   tell_event(*record->verdict, &*record, reason ? reason->message : std::string());
   logs_.keep(*record);
-  const bool is_printed = print(*record, reason);
+  view_ ? view_->take(*record, reason, station.is_repeating()) : void();
+  const bool is_printed = view_ || print(*record, reason);
   account(*record, reason);
   if (record->verdict != fleet::verdict::error) {
     label_.reset();
@@ -287,10 +291,6 @@ bool ProvisionRun::take_off(Station& station) {
 
 bool ProvisionRun::print(const LedgerRecord& record, const std::optional<Error>& reason) {
   const Reporter& reporter = context_.reporter();
-  if (view_) {
-    view_->take(record, reason);
-    return true;
-  }
   return put(record_line(record, reporter.format(), reporter.page(), reason));
 }
 
@@ -364,6 +364,7 @@ void ProvisionRun::tell(StationStage stage) {
   case StationStage::waiting: return context_.reporter().progress(say<texts::provision_waits>());
   case StationStage::recognised: return context_.reporter().progress(say<texts::provision_asks>());
   case StationStage::working: return context_.reporter().progress(say<texts::provision_works>());
+  case StationStage::gone: return context_.reporter().progress(say<texts::provision_gone>());
   case StationStage::ended: return;
   case StationStage::take_off: break;
   }

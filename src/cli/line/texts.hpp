@@ -29,6 +29,8 @@ inline constexpr Text provision_waits{"connect a servo", "サーボを接続し�
 inline constexpr Text provision_label_waits{"scan a label", "ラベルを読み取って下さい"};
 inline constexpr Text provision_asks{"identifying it", "サーボを確認しています"};
 inline constexpr Text provision_works{"do not take it off", "外さないで下さい"};
+inline constexpr Text provision_gone{"it is gone: connect it again",
+                                     "サーボが外れました。もう一度接続して下さい"};
 inline constexpr Text provision_take_off{"take it off", "外して下さい"};
 inline constexpr Text provision_idle{"no servo came within {} s",
                                      "{} 秒以内にサーボが接続されませんでした"};

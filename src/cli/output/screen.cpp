@@ -17,7 +17,8 @@
 namespace blactl::cli {
 namespace {
 
-constexpr short good_colour = 1, warning_colour = 2, bad_colour = 3, in_colour = 4, out_colour = 5;
+constexpr short good_colour = 1, warning_colour = 2, bad_colour = 3, in_colour = 4, out_colour = 5,
+                skip_colour = 6;
 
 bool shows_colour = false;
 
@@ -38,6 +39,7 @@ attr_t attributes(Look look) {
   case Look::good_block: return A_REVERSE | colour_or(good_colour, A_NORMAL);
   case Look::warning_block: return A_REVERSE | colour_or(warning_colour, A_NORMAL);
   case Look::bad_block: return A_REVERSE | colour_or(bad_colour, A_NORMAL);
+  case Look::skip_block: return A_REVERSE | colour_or(skip_colour, A_NORMAL);
   case Look::in_block: return A_REVERSE | colour_or(in_colour, A_NORMAL);
   case Look::out_block: return A_REVERSE | colour_or(out_colour, A_NORMAL);
   case Look::bad: break;
@@ -127,6 +129,8 @@ Screen::Screen(bool colour) {
     init_pair(bad_colour, COLOR_RED, -1);
     init_pair(in_colour, COLOR_CYAN, -1);
     init_pair(out_colour, COLOR_MAGENTA, -1);
+    constexpr short bright_blue = 12; // of 16: the other one is dark on black
+    init_pair(skip_colour, COLORS > bright_blue ? bright_blue : COLOR_BLUE, -1);
   }
 }
 

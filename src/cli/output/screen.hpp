@@ -28,6 +28,7 @@ enum class Look : std::uint8_t {
   good_block,
   warning_block,
   bad_block,
+  skip_block,
   in_block, ///< something has to come
   out_block ///< something has to go
 };

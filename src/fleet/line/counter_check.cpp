@@ -3,47 +3,23 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/bla/address.hpp"
 #include "blactl/dronecan/ids.hpp"
-#include "blactl/fleet/line/line_record.hpp"
 
 #include "fleet/line/station_texts.hpp"
 
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <optional>
+#include <algorithm>
 #include <set>
 #include <string>
 #include <tuple>
-#include <utility>
 
 namespace blactl::fleet {
 
 using dronecan::UniqueId;
-using state::LedgerRecord;
 
 namespace {
 
-/// What units hold that have passed by a recipe, and were not taken out since.
-using Passed = std::map<UniqueId, LedgerRecord>;
-
-Result<Passed> passed_by(const state::LedgerStore& ledger, const Recipe& recipe) {
-  Passed passed;
-  const auto read = ledger.each({.recipe = recipe.name}, [&](const LedgerRecord& record) {
-    constexpr std::size_t size = std::tuple_size_v<UniqueId>;
-    const auto unit = from_hex<size>(record.unique_id.value_or(""));
-    if (unit && record.verdict == verdict::pass) {
-      passed.insert_or_assign(*unit, record);
-    } else if (unit && record.verdict == verdict::scrap) {
-      passed.erase(*unit);
-    }
-    return true;
-  });
-  return read ? Result<Passed>(std::move(passed)) : std::unexpected(read.error());
-}
-
-bool gives(const Counter& counter, const LedgerRecord& record) {
-  const auto& held = counter.parameter->address == bla::address::servo_id ? record.servo_id
-                                                                          : record.static_node_id;
+bool gives(const Counter& counter, const state::PassedIds& ids) {
+  const auto& held =
+      counter.parameter->address == bla::address::servo_id ? ids.servo_id : ids.static_node_id;
   return held && *held >= counter.first && *held <= counter.last;
 }
 
@@ -51,7 +27,7 @@ bool gives(const Counter& counter, const LedgerRecord& record) {
 
 Result<void> check_counters(const state::LedgerStore& ledger, const state::CounterStore& counters,
                             const Recipe& recipe) {
-  const auto passed = passed_by(ledger, recipe);
+  const auto passed = ledger.passed(recipe.name);
   if (!passed) {
     return std::unexpected(passed.error());
   }
@@ -61,9 +37,10 @@ Result<void> check_counters(const state::LedgerStore& ledger, const state::Count
     if (!known) {
       return std::unexpected(known.error());
     }
-    for (const auto& [unit, record] : *passed) {
-      if (gives(counter, record) && !known->contains(unit)) {
-        unknown.insert(unit);
+    for (const auto& [text, ids] : *passed) {
+      const auto unit = from_hex<std::tuple_size_v<UniqueId>>(text);
+      if (unit && gives(counter, ids) && !std::ranges::binary_search(*known, *unit)) {
+        unknown.insert(*unit);
       }
     }
   }

@@ -6,6 +6,7 @@
 #include "blactl/fleet/change/change.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 
+#include "fleet/line/absence_watch.hpp"
 #include "fleet/line/acceptance.hpp"
 #include "fleet/line/acceptance_texts.hpp"
 #include "fleet/line/presence.hpp"
@@ -45,6 +46,15 @@ Error at_station(Error error) {
   return error;
 }
 
+/// The label's serial number and that of the servo, where they differ.
+void enter_label_mismatch(LedgerRecord& record, const Label& label) {
+  if (label.serial_number && label.serial_number != record.serial_number) {
+    record.parameter = "serial_number";
+    record.expected = label.serial_number;
+    record.actual = record.serial_number;
+  }
+}
+
 /// The first setting that was read as something else.
 std::optional<Error> first_wrong(const Snapshot& held, std::span<const bla::Assignment> settings,
                                  LedgerRecord& record) {
@@ -72,6 +82,7 @@ std::string_view name(StationStage stage) {
   case StationStage::waiting: return "waiting";
   case StationStage::recognised: return "recognised";
   case StationStage::working: return "working";
+  case StationStage::gone: return "gone";
   case StationStage::ended: return "ended";
   case StationStage::take_off: break;
   }
@@ -82,6 +93,8 @@ Station::Station(Session& session, const bla::Profiles& profiles, state::LedgerS
                  state::CounterStore& counters, Options options, StageHook entered)
     : session_(session), profiles_(profiles), ledger_(ledger), counters_(counters),
       options_(std::move(options)), entered_(std::move(entered)) {}
+
+Station::~Station() = default;
 
 Result<std::vector<LedgerRecord>> Station::end_interrupted() {
   auto begun = ledger_.begun(options_.common.station);
@@ -170,12 +183,14 @@ Error Station::unless_away(Error error, NodeId id) const {
   if (error.code == Code::state && is_beside_another(id)) {
     return several(id.value());
   }
-  const bool is_away = session_.roster().member(id).last_heard < session_.now() - away_time;
-  const bool is_silence = error.code == Code::timeout || error.code == Code::not_found ||
-                          error.code == Code::not_back || error.code == Code::mismatch;
-  return is_away && is_silence ? Error{Code::not_back, say<texts::station_pulled>(),
-                                       say<texts::station_pulled_hint>(), id.value()}
-                               : error;
+  const bool is_silence = error.code == Code::timeout || error.code == Code::not_found;
+  const bool is_away = session_.roster().member(id).last_heard < session_.now() - away_time &&
+                       (is_silence || error.code == Code::not_back || error.code == Code::mismatch);
+  // it may be back as its answers are given up
+  const bool was_away = watch_->was_away() && (is_silence || error.code == Code::state);
+  return is_away || was_away ? Error{Code::not_back, say<texts::station_pulled>(),
+                                     say<texts::station_pulled_hint>(), id.value()}
+                             : error;
 }
 
 Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label) {
@@ -191,6 +206,9 @@ Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label
     wrong = check_unit(servo, options_.recipe, label, profiles_);
   }
   if (wrong) {
+    if (wrong->code == Code::label_mismatch) {
+      enter_label_mismatch(record, *label);
+    }
     const std::string_view verdict = verdict_of(wrong->code);
     return commit(std::move(record), arrival.at, verdict, std::move(wrong));
   }
@@ -243,9 +261,13 @@ std::optional<Error> Station::number_and_configure(const Servo& servo, const Lab
 
 std::optional<Error> Station::configure(const Servo& servo, std::vector<bla::Assignment> settings,
                                         LedgerRecord& record) {
+  Manner manner = options_.manner;
+  manner.entered = [this](const Servo& /*servo*/, ChangeStage stage) {
+    watch_->expect_restart(stage == ChangeStage::save || stage == ChangeStage::restart);
+  };
   Change change(
       session_, profiles_,
-      {.manner = options_.manner, .knows_ids = true, .searched = session_.roster().last_heard()});
+      {.manner = std::move(manner), .knows_ids = true, .searched = session_.roster().last_heard()});
   const Goal goal{.id = servo.id,
                   .unique_id = servo.unique_id,
                   .wanted = {.assignments = settings, .restart = RestartKind::save},
@@ -261,7 +283,7 @@ std::optional<Error> Station::configure(const Servo& servo, std::vector<bla::Ass
   if (const auto begun = ledger_.begin(record); !begun) {
     return begun.error();
   }
-  entered_(StationStage::working);
+  go_to(StationStage::working);
   errors = change.carry_out();
   const GoalResult& result = change.results().front();
   enter(record, result);
@@ -319,7 +341,8 @@ Result<LedgerRecord> Station::commit(LedgerRecord record, Time began, std::strin
   record.station_seq = *number;
   reason_ = std::move(reason);
   remember(record);
-  entered_(StationStage::ended);
+  watch_.reset();
+  go_to(StationStage::ended);
   return record;
 }
 

@@ -2,10 +2,12 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/change/allocation_service.hpp"
 #include "blactl/fleet/change/let_in.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 #include "blactl/fleet/line/station.hpp"
 
+#include "fleet/line/absence_watch.hpp"
 #include "fleet/line/presence.hpp"
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 #include <cstddef>
 #include <list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -29,11 +32,15 @@ using namespace std::chrono_literals;
 /// How often a silent bus is looked at.
 constexpr Duration look_period = 100ms;
 
+/// A unit that was so often spoilt without having been off restarts by itself: it would never end.
+constexpr unsigned most_spoilt_in_row = 3;
+
 /// Who has not told by then who it is counts as another unit.
 constexpr Duration longest_answer = 2s;
 
-bool may_be_bla_servo(const Member& member) {
-  return member.is_servo || (member.sends_actuator_status() && !member.is_foreign());
+/// Whether a unit that has asked since then waits for its node ID now.
+bool is_open(const Asking& asking, Time since, Time now) {
+  return asking.last > asking.given && asking.last > now - request_period && asking.last > since;
 }
 
 } // namespace
@@ -44,6 +51,28 @@ class Station::Succession {
   /// The session outlives this.
   Succession(Session& session, Patience patience, const Visit& last)
       : session_(session), patience_(patience), unit_(last.unit), nodes_(last.nodes) {}
+
+  /// From now on whoever asks for a node ID is lent one, and tells by that who it is.
+  [[nodiscard]] Result<void> lend(const state::NodeIds& avoided) {
+    if (lender_) {
+      return {};
+    }
+    auto table = state::AllocationStore::unshared();
+    if (!table) {
+      return std::unexpected(table.error());
+    }
+    table_.emplace(std::move(*table));
+    lender_.emplace(session_, *table_, AllocationService::Range{}, [](auto, const auto&) {});
+    lender_->bus_is_known();
+    lender_->avoid(avoided);
+    return {};
+  }
+
+  /// Whether another unit has asked, and told all of its unique ID.
+  [[nodiscard]] bool has_lent_to_another() const {
+    return lender_ && std::ranges::any_of(lender_->units(),
+                                          [this](const auto& unit) { return unit.first != unit_; });
+  }
 
   ~Succession() {
     for (UnitJob& job : jobs_) {
@@ -90,6 +119,8 @@ class Station::Succession {
   std::map<NodeId, Visit::Node> nodes_;
   std::map<NodeId, Time> asked_;
   std::list<UnitJob> jobs_;
+  std::optional<state::AllocationStore> table_;
+  std::optional<AllocationService> lender_; ///< empty: nobody has asked
 };
 
 std::vector<NodeId> Station::servos_there() const {
@@ -105,21 +136,38 @@ std::vector<NodeId> Station::servos_there() const {
 /// Whether a unit asks for a node ID now, and has since then: one that has left has asked before.
 bool Station::is_asked(Time since) const {
   return std::ranges::any_of(session_.roster().requests(), [&](const auto& request) {
-    const Asking& asking = request.second;
-    return asking.last > asking.given && asking.last > session_.now() - request_period &&
-           asking.last > since;
+    return is_open(request.second, since, session_.now());
   });
 }
 
-/// Many units begin with the same bytes, and a request tells only these: it may be of the last unit
-/// if that has no static node ID.
+/// A request tells the first bytes of a unit, and many begin alike: it may be of the last unit if
+/// that has no static node ID, and was not heard under a node ID since.
 bool Station::is_other_asking() const {
-  return is_asked(last_.end) &&
-         (!last_.unit || !last_.may_ask || !session_.roster().asked_at(*last_.unit));
+  const auto is_there_since = [this](Time asked) {
+    return std::ranges::any_of(session_.roster().members(), [&](const auto& entry) {
+      return entry.second.is_unit(*last_.unit) && entry.second.last_heard > asked;
+    });
+  };
+  return std::ranges::any_of(session_.roster().requests(), [&](const auto& request) {
+    const auto& [prefix, asking] = request;
+    const bool may_be_last = last_.unit && last_.may_ask &&
+                             dronecan::begins_with(*last_.unit, prefix) &&
+                             !is_there_since(asking.last);
+    return is_open(asking, last_.end, session_.now()) && !may_be_last;
+  });
 }
 
 bool Station::is_servo_there() const {
   return is_asked() || !servos_there().empty();
+}
+
+/// The node IDs that no unit is lent.
+state::NodeIds Station::beside_bench() const {
+  state::NodeIds others;
+  for (std::uint8_t id = 1; id <= NodeId::max; ++id) {
+    others.set(id, NodeId(id) < options_.first_bench_id || NodeId(id) > options_.last_bench_id);
+  }
+  return others;
 }
 
 /// Bench IDs are borrowed: no table keeps them.
@@ -128,22 +176,30 @@ Result<void> Station::let_in() {
   if (!bench) {
     return std::unexpected(bench.error());
   }
-  state::NodeIds others;
-  for (std::uint8_t id = 1; id <= NodeId::max; ++id) {
-    others.set(id, NodeId(id) < options_.first_bench_id || NodeId(id) > options_.last_bench_id);
-  }
-  const auto asked = fleet::let_in(session_, *bench, std::nullopt, others);
+  const auto asked = fleet::let_in(session_, *bench, std::nullopt, beside_bench());
   return asked ? Result<void>() : std::unexpected(asked.error());
 }
 
+void Station::go_to(StationStage stage) {
+  stage_ = stage;
+  entered_(stage);
+}
+
+/// From now on the hook is told, too, that the servo has gone, and that it is back.
+void Station::watch_absence() {
+  watch_ = std::make_unique<AbsenceWatch>(
+      session_, [this](bool is_away) { entered_(is_away ? StationStage::gone : stage_); });
+}
+
 Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
-  entered_(StationStage::waiting);
+  go_to(StationStage::waiting);
   for (;;) {
     const auto came = session_.live_until(deadline, [this] { return is_servo_there(); });
     if (!came || !*came) {
       return came ? Result<std::optional<Arrival>>() : std::unexpected(came.error());
     }
-    entered_(StationStage::recognised);
+    go_to(StationStage::recognised);
+    watch_absence();
     Arrival arrival{
         .has_asked = is_asked() || last_.has_let_in, .at = session_.now(), .wall = session_.wall()};
     // what was heard until now may be of another unit on the same node ID, or of an allocator that
@@ -154,23 +210,31 @@ Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
     const auto let = heard && is_asked() ? let_in() : heard;
     const auto found = let ? discovery.find_all(bus_watch_time) : let;
     if (!found) {
+      watch_.reset();
       return std::unexpected(found.error());
     }
     arrival.ids = servos_there();
     if (!arrival.ids.empty()) {
       return arrival;
     }
-    entered_(StationStage::waiting);
+    watch_.reset();
+    go_to(StationStage::waiting);
   }
 }
 
 void Station::remember(const state::LedgerRecord& record) {
+  constexpr std::size_t size = std::tuple_size_v<UniqueId>;
+  const auto unit = record.unique_id ? from_hex<size>(*record.unique_id) : std::nullopt;
+  const bool is_spoilt = reason_ && reason_->code == Code::not_back;
+  const bool is_same = unit && last_.unit == *unit;
+  const unsigned spoilt = is_spoilt ? 1 + (is_same ? last_.spoilt : 0) : 0;
   last_ = {.may_ask = record.static_node_id.value_or(0) == 0,
            .are_several = reason_ && reason_->code == Code::several_servos,
-           .is_to_be_repeated = reason_ && is_done_again(reason_->code),
+           .is_to_be_repeated =
+               reason_ && is_done_again(reason_->code) && spoilt < most_spoilt_in_row,
+           .spoilt = spoilt,
            .end = session_.now()};
-  constexpr std::size_t size = std::tuple_size_v<UniqueId>;
-  if (const auto unit = record.unique_id ? from_hex<size>(*record.unique_id) : std::nullopt) {
+  if (unit) {
     last_.unit = *unit;
   }
   for (const NodeId id : servos_there()) {
@@ -182,7 +246,8 @@ void Station::remember(const state::LedgerRecord& record) {
 }
 
 Result<Station::Leaving> Station::wait_until_off(Time deadline) {
-  entered_(StationStage::take_off);
+  watch_.reset();
+  go_to(StationStage::take_off);
   Succession succession(session_, options_.manner.identification.patience, last_);
   Time heard = session_.now();
   while (session_.now() - heard < off_time) {
@@ -195,18 +260,22 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
     const auto servos = servos_there();
     const bool is_there = !servos.empty() || is_asked(last_.end);
     heard = is_there || session_.away() ? session_.now() : heard;
-    const bool is_next =
-        last_.is_to_be_repeated ? is_there : succession.has_begun(servos) || is_other_asking();
+    const bool has_lent = succession.has_lent_to_another();
+    const bool is_next = last_.is_to_be_repeated
+                             ? is_there
+                             : succession.has_begun(servos) || is_other_asking() || has_lent;
     if (is_next && !last_.are_several) {
-      entered_(StationStage::recognised);
-      return Leaving::replaced;
+      go_to(StationStage::recognised);
+      const auto came = has_lent ? session_.live_until(session_.now() + longest_answer,
+                                                       [this] { return is_servo_there(); })
+                                 : Result<bool>(true);
+      return came ? Result<Leaving>(Leaving::replaced) : std::unexpected(came.error());
     }
     if (!last_.are_several && is_asked(last_.end)) {
-      if (const auto let = let_in(); !let) { // to tell whether it is the last one
-        return std::unexpected(let.error());
+      if (const auto lent = succession.lend(beside_bench()); !lent) { // to tell who it is
+        return std::unexpected(lent.error());
       }
       last_.has_let_in = true;
-      heard = session_.now();
     }
   }
   session_.records().forget_gone(session_.now() - off_time);

@@ -1,6 +1,7 @@
 #include "catch.hpp"
-#include "cli/line/station_view.hpp"
+#include "cli/line/station_picture.hpp"
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,7 +69,7 @@ TEST_CASE("the verdict fills the screen, whatever its size, and what to do is in
   for (const Case& each : {Case{"pass", Look::good_block, "TAKE IT OFF", "外して下さい"},
                            Case{"fail", Look::bad_block, "PUT IT ASIDE", "不合格品置き場へ"},
                            Case{"error", Look::warning_block, "TAKE IT OFF", "外して下さい"},
-                           Case{"skip", Look::block, "TAKE IT OFF", "外して下さい"}}) {
+                           Case{"skip", Look::skip_block, "TAKE IT OFF", "外して下さい"}}) {
     INFO(each.verdict);
     picture.last = record(each.verdict);
     const auto lines = lines_of(picture, width, height);
@@ -136,6 +137,127 @@ TEST_CASE("the last result stays until the next servo, and an error asks for the
   CHECK(has(text_of(lines_of(picture, 80, 24)), "DO NOT TAKE IT OFF"));
   picture.deed = LineDeed::connect;
   CHECK(cells(lines_of(picture, 80, 24), Look::block) > 50); // READY
+}
+
+TEST_CASE("a unit that was spoilt is shown by sign and number until it was finished") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  INFO(width);
+  const bool is_large = height == 24;
+  const Error pulled{Code::not_back, "it was taken off too early"};
+  StationPicture picture;
+  auto spoilt = record("error", "a");
+  spoilt.code = "not_back";
+  picture.take(spoilt, pulled, true);
+  const auto sees = [&](bool is_big) {
+    const auto lines = lines_of(picture, width, height);
+    REQUIRE(lines.size() == height);
+    return is_big ? cells(lines, Look::warning_block) > 3 * width
+                  : cells(lines, Look::warning_block) >= width && has(text_of(lines), "240900558");
+  };
+  CHECK(sees(is_large));
+  picture.enter(fleet::StationStage::recognised); // another one was there already
+  CHECK(sees(true));
+  picture.enter(fleet::StationStage::waiting); // and has gone
+  CHECK(sees(true));
+  picture.enter(fleet::StationStage::working);
+  picture.take(record("pass", "b"), std::nullopt, false);
+  CHECK(sees(is_large));
+  CHECK(cells(lines_of(picture, width, height), Look::good_block) > 4 * width);
+  picture.enter(fleet::StationStage::recognised);
+  picture.take(record("pass", "a"), std::nullopt, false);
+  CHECK(cells(lines_of(picture, width, height), Look::warning_block) == 0);
+  for (const auto* unit : {"c", "d", "e", "f"}) { // more than have room
+    picture.take(record("error", unit), pulled, true);
+  }
+  for (const ScreenLine& line : lines_of(picture, width, height)) {
+    CHECK(display_width(text_of(line)) <= width);
+  }
+  picture.owed.front().number = "99";
+  CHECK(has(text_of(lines_of(picture, width, height)), "99"));
+}
+
+TEST_CASE("a servo that has gone too early is told by signs, also one that was not known yet") {
+  StationPicture picture;
+  picture.enter(fleet::StationStage::recognised);
+  picture.enter(fleet::StationStage::working);
+  picture.enter(fleet::StationStage::gone);
+  const auto is_told = [&] {
+    const auto lines = lines_of(picture, 53, 16);
+    return cells(lines, Look::in_block) > 100 && cells(lines, Look::warning) == 0 &&
+           cells(lines, Look::warning_block) > 30 && !has(text_of(lines), "DO NOT");
+  };
+  CHECK(is_told());
+  picture.enter(fleet::StationStage::working); // it was not
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "DO NOT TAKE IT OFF"));
+  picture.enter(fleet::StationStage::gone);
+  picture.enter(fleet::StationStage::waiting); // without a record
+  CHECK(is_told());
+  picture.enter(fleet::StationStage::recognised);
+  CHECK_FALSE(is_told());
+  picture.enter(fleet::StationStage::waiting);
+  CHECK_FALSE(is_told());
+}
+
+TEST_CASE("a run that was stopped says so by a sign while it brings its servo to the end") {
+  for (const auto stage : {fleet::StationStage::working, fleet::StationStage::recognised}) {
+    StationPicture picture;
+    picture.enter(stage);
+    CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) == 0);
+    picture.is_stopping = true;
+    CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) > 50);
+    CHECK(cells(lines_of(picture, 80, 24), Look::warning_block) > 100);
+    CHECK(cells(lines_of(picture, 53, 16), Look::block) > 100); // what is to be left stays
+    picture.owed.push_back({"a", "104"});                       // and does not hide it
+    CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) > 50 + 53);
+    CHECK(has(text_of(lines_of(picture, 53, 16)), "104"));
+  }
+}
+
+TEST_CASE("labels that were scanned ahead are counted, and of swapped ones both are shown") {
+  StationPicture picture{.deed = LineDeed::hands_off, .label = "403", .waiting_labels = 2};
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "label 403   +2"));
+  picture.label.clear();
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "+2"));
+  picture.waiting_labels = 0;
+  picture.note = "a note";
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "a note"));
+  auto swapped = record("fail");
+  swapped.code = "label_mismatch";
+  swapped.parameter = "serial_number";
+  swapped.expected = 240900559;
+  swapped.actual = swapped.serial_number;
+  picture.take(swapped, Error{Code::label_mismatch, "its serial number is another one"}, false);
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
+  picture.owed.push_back({"b", "104"});
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
+}
+
+TEST_CASE("while the station is busy something moves") {
+  StationPicture picture{.deed = LineDeed::leave};
+  for (const auto deed : {LineDeed::leave, LineDeed::hands_off}) {
+    picture.deed = deed;
+    std::set<std::size_t> lit;
+    for (int i = 0; i < 4; ++i) {
+      CHECK(picture.tick());
+      lit.insert(cells(lines_of(picture, 53, 16), Look::block));
+    }
+    CHECK(lit.size() > 2);
+  }
+  picture.deed = LineDeed::connect;
+  CHECK_FALSE(picture.tick()); // nothing to draw
+}
+
+TEST_CASE("a unit that restarts for ever has to be taken off, not connected again") {
+  StationPicture picture;
+  for (const bool is_repeating : {true, false}) {
+    auto spoilt = record("error");
+    spoilt.code = "not_back";
+    picture.take(spoilt, Error{Code::not_back, "it was taken off too early"}, is_repeating);
+    const auto lines = lines_of(picture, 80, 24);
+    CHECK((cells(lines, Look::in_block) > 0) == is_repeating);
+    CHECK((cells(lines, Look::out_block) > 0) != is_repeating);
+  }
 }
 
 TEST_CASE("a tiny screen is no reason to fail") {

@@ -6,7 +6,10 @@
 #include "processes.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -220,6 +223,36 @@ TEST_CASE("what is no verdict is not recorded") {
   LedgerStore store = opened(folder);
   CHECK_FALSE(store.end(record("a", noon, "perhaps")));
   CHECK(found(store).empty());
+}
+
+TEST_CASE("the units that have passed by a recipe are told, until they are scrapped") {
+  const Folder folder;
+  LedgerStore store = opened(folder);
+  int number = 0;
+  const auto add = [&](const std::string& unit, const std::string& verdict,
+                       std::optional<std::int64_t> servo_id, const std::string& recipe = "r") {
+    LedgerRecord one = record(std::to_string(++number), noon, verdict);
+    one.unique_id = unit;
+    one.recipe = recipe;
+    one.servo_id = servo_id;
+    one.static_node_id = 10 + number;
+    REQUIRE(store.end(one));
+  };
+  CHECK(store.passed("r") == std::map<std::string, PassedIds>());
+  add("a", "pass", 1);
+  add("b", "pass", 2);
+  add("c", "fail", 3);
+  add("d", "pass", 4, "another");
+  add("b", "scrap", 2);
+  add("a", "error", 6);
+  add("a", "pass", std::nullopt);
+  LedgerRecord nobody = record("nobody");
+  nobody.recipe = "r";
+  REQUIRE(store.end(nobody));
+  CHECK(store.passed("r") ==
+        std::map<std::string, PassedIds>{{"a", {.servo_id = {}, .static_node_id = 17}}});
+  add("b", "pass", 2);
+  CHECK(store.passed("r").value().contains("b"));
 }
 
 TEST_CASE("what is begun is kept apart until it has ended, also beyond the process") {

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -23,11 +24,14 @@
 
 namespace blactl::fleet {
 
+class AbsenceWatch;
+
 /// What an operator can see of the work.
 enum class StationStage : std::uint8_t {
   waiting,    ///< for a servo
   recognised, ///< something was heard: it is asked what it is
   working,    ///< it is written to: it must not be taken off
+  gone,       ///< it fell silent before its end; the stage before follows if it is heard again
   ended,      ///< its record is in the ledger
   take_off,   ///< it is waited for that no servo is on the bus
 };
@@ -66,6 +70,9 @@ class Station {
   /// All references outlive this. `entered` is called for every stage.
   Station(Session& session, const bla::Profiles& profiles, state::LedgerStore& ledger,
           state::CounterStore& counters, Options options, StageHook entered);
+  ~Station();
+  Station(const Station&) = delete;
+  Station& operator=(const Station&) = delete;
 
   /// Ends what an earlier run of this station has begun and not ended: error, interrupted. Returns
   /// these records. Errors: those of the ledger.
@@ -85,6 +92,9 @@ class Station {
   /// Why the last record is no pass; empty: it is, or its end is no error.
   [[nodiscard]] const std::optional<Error>& reason() const { return reason_; }
 
+  /// Whether the last one is done again as soon as a servo is heard; else it has to be taken off.
+  [[nodiscard]] bool is_repeating() const { return last_.is_to_be_repeated; }
+
   /// Waits until no servo has been heard for 3 s, or until another unit than the last one is there:
   /// whoever comes, restarts or was silent is asked who it is. After the wait was broken off by an
   /// error it may be called again. Errors: those that end a session.
@@ -100,6 +110,7 @@ class Station {
     bool may_ask = false;                     ///< for a node ID, after a restart
     bool are_several = false;                 ///< all of them have to go
     bool is_to_be_repeated = false;           ///< as soon as a servo is there
+    unsigned spoilt = 0;                      ///< so often in a row, without having been off
     bool has_let_in = false;                  ///< one that asked after its end
     Time end{};
 
@@ -112,10 +123,13 @@ class Station {
     std::map<dronecan::NodeId, Node> nodes{};
   };
 
+  void go_to(StationStage stage);
+  void watch_absence();
   [[nodiscard]] bool is_asked(Time since = Time::min()) const;
   [[nodiscard]] bool is_other_asking() const;
   void remember(const state::LedgerRecord& record);
   [[nodiscard]] std::vector<dronecan::NodeId> servos_there() const;
+  [[nodiscard]] state::NodeIds beside_bench() const;
   [[nodiscard]] Result<void> let_in();
   [[nodiscard]] std::optional<Error> identify(const Arrival& arrival, Servo& servo) const;
   [[nodiscard]] Result<Past> past_of(const Servo& servo) const;
@@ -139,6 +153,8 @@ class Station {
   Options options_;
   StageHook entered_;
   std::optional<Error> reason_;
+  StationStage stage_{};
+  std::unique_ptr<AbsenceWatch> watch_; ///< while a servo is not to be taken off
   Visit last_{};
 };
 

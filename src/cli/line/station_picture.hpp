@@ -1,0 +1,68 @@
+#pragma once
+// The screen of a station, to be read from two metres, also by who reads neither language: the
+// verdict by colour, symbol, word and sound; what to do now by colour, symbol and place. Up and at
+// the top: something has to go; down and at the bottom: something has to come (contract, section
+// 6).
+
+#include "blactl/base/error.hpp"
+#include "blactl/fleet/line/station.hpp"
+#include "blactl/state/ledger_record.hpp"
+
+#include "cli/line/line_totals.hpp"
+#include "cli/output/screen.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blactl::cli {
+
+/// What the operator shall do.
+enum class LineDeed : std::uint8_t {
+  connect,
+  scan,
+  leave,
+  hands_off,
+  bring_back, ///< it has gone too early
+  take_off,
+  plug_in, ///< the adapter
+  mend,    ///< the bus
+};
+
+/// What is to be seen; its methods tell what has happened.
+struct StationPicture {
+  /// A unit whose last record is an error: it has to come back.
+  struct Owed {
+    std::string unit, number; ///< unique ID, serial number
+  };
+
+  std::string title{};
+  LineTotals totals{};
+  LineDeed deed = LineDeed::connect;
+  std::optional<state::LedgerRecord> last{}; ///< until the next servo is recognised
+  std::optional<Error> reason{};
+  bool is_repeating = false;      ///< as Station::is_repeating()
+  std::string label{};            ///< that counts, or is being typed; shown in place of the note
+  std::size_t waiting_labels = 0; ///< that were read ahead
+  std::string note{};             ///< the last one
+  std::vector<Owed> owed{};
+  bool is_stopping = false; ///< the present servo is the last one
+  std::size_t beat = 0;     ///< of what moves
+
+  void enter(fleet::StationStage stage);
+  void take(const state::LedgerRecord& record, const std::optional<Error>& why, bool is_again);
+
+  /// Called some times a second; returns whether something has moved.
+  [[nodiscard]] bool tick();
+
+  /// How often the bell rings for it.
+  [[nodiscard]] int bells() const;
+};
+
+/// The picture on a screen of this size.
+[[nodiscard]] std::vector<ScreenLine> lines_of(const StationPicture& picture, std::size_t width,
+                                               std::size_t height);
+
+} // namespace blactl::cli
