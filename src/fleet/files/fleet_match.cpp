@@ -63,6 +63,7 @@ class Matching {
       give_to_selected(file);
       check_named();
       check_unidentified(file);
+      check_doubled(file);
       return std::move(match_);
     }
     for (const FleetEntry& entry : file.servos) {
@@ -75,6 +76,7 @@ class Matching {
     }
     check_named();
     check_unidentified(file);
+    check_doubled(file);
     std::ranges::sort(match_.pairs, {}, &FleetMatch::Pair::id);
     return std::move(match_);
   }
@@ -216,6 +218,32 @@ class Matching {
     for (const NodeId id : unidentified(roster_)) {
       match_.errors.push_back(not_identified(roster_, id, what, is_recording_));
     }
+  }
+
+  /// Two servos on one node ID are left out by nobody's wish: what is for several may be for them.
+  void check_doubled(const FleetFile& file) {
+    const bool is_for_several =
+        file.names_nobody() || std::ranges::any_of(file.servos, [](const FleetEntry& entry) {
+          return !entry.match.means_one();
+        });
+    for (const NodeId id : roster_.doubled()) {
+      const Member member = roster_.member(id);
+      const bool may_be_servos =
+          !member.is_foreign() && (member.is_servo || member.sends_actuator_status());
+      const bool is_told = std::ranges::any_of(match_.errors, [&](const Error& error) {
+        return error.code == Code::duplicate_node_id && error.node_id == id.value();
+      });
+      if (may_be_servos && !is_told && (narrows() ? is_selected(member) : is_for_several)) {
+        match_.errors.push_back(doubled(roster_, id));
+      }
+    }
+  }
+
+  /// Whether a selector that means several may mean it.
+  [[nodiscard]] bool is_selected(const Member& member) const {
+    return std::ranges::any_of(targets_.selectors, [&](const Selector& selector) {
+      return !selector.is_unique() && selector.may_match(member, profiles_, roster_.last_heard());
+    });
   }
 
   void pair(const FleetEntry& entry, NodeId id) {
