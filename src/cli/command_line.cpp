@@ -282,7 +282,7 @@ void Parser::check_recording() {
       }
     }
   }
-  const auto fit = check_log_target(*result_.shared.record, "--record");
+  const auto fit = check_target(*result_.shared.record, Content::log, "--record");
   if (!fit && faults_.size() == known) {
     faults_.push_back(fit.error());
   }

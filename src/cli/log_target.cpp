@@ -28,12 +28,28 @@ std::string beginning(const std::string& file) {
 /// Whether the first line is a frame, or the head of a report.
 bool is_log(std::string_view text) {
   const std::string_view line = text.substr(0, text.find('\n'));
-  return text.empty() || can::parse_line(line) ||
+  return can::parse_line(line) ||
          (line.starts_with("# ") && line.find("blactl ") != std::string_view::npos);
 }
 
-bool is_drawing(std::string_view text) {
-  return text.empty() || text.find("<svg ") != std::string_view::npos;
+bool is_of_its_kind(std::string_view text, Content content) {
+  switch (content) {
+  case Content::log: return is_log(text);
+  case Content::drawing: return text.find("<svg ") != std::string_view::npos;
+  case Content::events: return text.starts_with(R"({"time":)");
+  case Content::facts: return text.find("blactl-facts/") != std::string_view::npos;
+  }
+  return false;
+}
+
+std::string over_other(Content content, std::string_view option, const std::string& file) {
+  switch (content) {
+  case Content::log: return say<texts::log_over_other>(option, file);
+  case Content::drawing: return say<texts::drawing_over_other>(option, file);
+  case Content::events: return say<texts::events_over_other>(option, file);
+  case Content::facts: return say<texts::facts_over_other>(option, file);
+  }
+  return {};
 }
 
 bool is_regular(const std::string& file) {
@@ -50,25 +66,17 @@ Result<void> check_no_state(const std::string& file, std::string_view option) {
              : Result<void>();
 }
 
-Result<void> check_drawing_target(const std::string& file, std::string_view option) {
+Result<void> check_target(const std::string& file, Content content, std::string_view option) {
   if (auto fit = check_no_state(file, option); !fit) {
     return fit;
   }
-  if (is_regular(file) && !is_drawing(beginning(file))) {
-    return fail(Code::usage, say<texts::drawing_over_other>(option, printable(file)),
+  const std::string text = is_regular(file) ? beginning(file) : std::string();
+  if (!text.empty() && !is_of_its_kind(text, content)) {
+    return fail(Code::usage, over_other(content, option, printable(file)),
                 say<texts::log_over_other_hint>());
   }
-  return check_replaceable(file);
-}
-
-Result<void> check_log_target(const std::string& file, std::string_view option) {
-  if (auto fit = check_no_state(file, option); !fit) {
-    return fit;
-  }
-  return is_regular(file) && !is_log(beginning(file))
-             ? fail(Code::usage, say<texts::log_over_other>(option, printable(file)),
-                    say<texts::log_over_other_hint>())
-             : Result<void>();
+  const bool is_written_at_once = content == Content::drawing || content == Content::facts;
+  return is_written_at_once ? check_replaceable(file) : Result<void>();
 }
 
 } // namespace blactl::cli

@@ -90,6 +90,10 @@ inline constexpr Text log_over_state{"{} {}: blactl keeps its own records there"
 inline constexpr Text log_over_state_hint{"type another file", "別のファイルを指定して下さい"};
 inline constexpr Text log_over_other{"{} {}: that file is there, and is no log",
                                      "{} {}: 既存のファイルで、ログではありません"};
+inline constexpr Text events_over_other{"{} {}: that file is there, and has no events of blactl",
+                                        "{} {}: 既存のファイルで、blactl のイベントではありません"};
+inline constexpr Text facts_over_other{"{} {}: that file is there, and is no facts file",
+                                       "{} {}: 既存のファイルで、実測ファイルではありません"};
 inline constexpr Text drawing_over_other{"{} {}: that file is there, and is no drawing",
                                          "{} {}: 既存のファイルで、図ではありません"};
 inline constexpr Text log_over_other_hint{

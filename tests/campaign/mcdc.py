@@ -26,7 +26,8 @@ FILES = ("plan", "guard", "change", "change_job", "change_readings", "change_ver
 
 def hear_signals():
     """What runs in the background of a shell would ignore the signals that tests send."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    for one in (signal.SIGHUP, signal.SIGINT):
+        signal.signal(one, signal.SIG_DFL)
 
 
 def run(*words, **more):

@@ -18,7 +18,7 @@ constexpr std::string_view by_other =
 constexpr std::array reasons{
     Reason{"armed", "The vehicle is armed: refused, as it must be."},
     Reason{"driven", "Another node drives the servo: refused, as it must be."},
-    Reason{"bursts", "Up to 100 ms of silence twice a second outlast three requests of 50 ms."},
+    Reason{"bursts", "100 ms of disturbance twice a second drive the adapter to bus-off."},
     Reason{"loss", "Of ten or twenty frames one is lost: a response to GetNodeInfo has eleven, and "
                    "`--retries` is the user's."},
     Reason{"late_answers",
@@ -26,7 +26,8 @@ constexpr std::array reasons{
     Reason{"bus_off", "The adapter is off until the command is run again."},
     Reason{"cut", "The cable is off for up to 0.9 s, longer than three requests."},
     Reason{"mute", "The servo answers nothing."},
-    Reason{"lose_responses", "Up to three responses in a row are lost: as many as there are requests."},
+    Reason{"lose_responses",
+           "Up to three responses in a row are lost: as many as there are requests."},
     Reason{"lose_opcode_answers", "Whether SAVE was carried out is not told, and is looked at."},
     Reason{"ignore_opcodes", "The servo confirms SAVE and does nothing."},
     Reason{"refuse_opcodes", "The servo refuses SAVE."},
@@ -35,8 +36,9 @@ constexpr std::array reasons{
     Reason{"stays", "The servo confirms SAVE or RestartNode and does not restart."},
     Reason{"never_returns", "The servo does not come back."},
     Reason{"return_delay", "8 s is more than the 5 s that `--wait` gives."},
-    Reason{"rom_unread", "The servo runs on initial values: SAVE would make them permanent, and is "
-                         "refused."},
+    Reason{"rom_unread",
+           "The servo runs on initial values, its node ID among them: it asks for one, "
+           "and SAVE would make them permanent."},
     Reason{"no_actuator_status", "Without actuator.Status it is not known to be a servo: `-n ID` "
                                  "names it."},
     Reason{"no_node_status", "Without NodeStatus it is not known to be there."},
@@ -44,11 +46,11 @@ constexpr std::array reasons{
     Reason{"power", unsaved},
     Reason{"plug", "The servo is away in the middle."},
     Reason{"unplug", "The servo is away from the middle on."},
-    Reason{"power_loss_in_save", unsaved},
+    Reason{"power_loss_in_save", "Power fails while ROM is written: what it holds then is told."},
     Reason{"ram_unlike_rom", unsaved},
     Reason{"restart_after_answer", unsaved},
     Reason{"restart_instead_of_answer", unsaved},
-    Reason{"upset", "The servo reports a failure that it did not have before."},
+    Reason{"upset", "The servo stops, or loses its ROM, in the middle."},
     Reason{"other_erases", by_other},
     Reason{"other_saves", by_other},
     Reason{"other_restarts", by_other},

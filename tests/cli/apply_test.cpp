@@ -518,6 +518,20 @@ TEST_CASE("a plan for another firmware is stale, and one whose names contradict 
               "/nodes/1/changes/0");
 }
 
+TEST_CASE("events replace no file that has other content, and no record of blactl's") {
+  const Fleet fleet(three_servos());
+  const Document document = fleet.exported();
+  const std::string other = fleet.bench().file("other.json", R"({"schema": "blactl-fleet/1"})");
+  check_error(fleet.apply(document, {"--events", other}), 2, "usage", "has no events of blactl");
+  CHECK(content(other) == R"({"schema": "blactl-fleet/1"})");
+  const std::string events = fleet.file_name("events.jsonl");
+  for (int time = 0; time < 2; ++time) { // its like is replaced
+    CHECK(fleet.apply(document, {"--events", events}).status == 0);
+  }
+  check_error(fleet.run({"characterize", "-n", "11", other, "-y", "--json"}), 2, "usage",
+              "is no facts file");
+}
+
 TEST_CASE("events are not written over the file that is applied") {
   const Fleet fleet(three_servos());
   const std::string file = fleet.file(fleet.exported());

@@ -4,6 +4,7 @@
 #include "blactl/base/system_error.hpp"
 
 #include "cli/change/texts.hpp"
+#include "cli/log_target.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/trace/time.hpp"
 
@@ -20,6 +21,9 @@ Result<std::unique_ptr<EventFile>> EventFile::open(const std::string& path) {
   if (path == "-") {
     return blactl::fail(Code::usage, say<texts::events_no_stdout>(),
                         say<texts::events_unopened_hint>());
+  }
+  if (auto fit = check_target(path, Content::events, "--events"); !fit) {
+    return std::unexpected(std::move(fit.error()));
   }
   constexpr mode_t file_mode = 0644;
   // O_NONBLOCK: neither a pipe without a reader nor a slow reader is waited for

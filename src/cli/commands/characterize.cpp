@@ -6,6 +6,7 @@
 
 #include "cli/change/writing_run.hpp"
 #include "cli/commands.hpp"
+#include "cli/log_target.hpp"
 #include "cli/output/characterize_view.hpp"
 #include "cli/stores.hpp"
 #include "cli/texts.hpp"
@@ -178,7 +179,9 @@ Report execute(const CharacterizeOptions& options, Context& context) {
     return report;
   }
   const bool is_file = !options.file.empty() && options.file != "-";
-  if (auto writable = is_file ? check_replaceable(options.file) : Result<void>(); !writable) {
+  if (auto writable =
+          is_file ? check_target(options.file, Content::facts, "characterize") : Result<void>();
+      !writable) {
     report.fail(writable.error());
     return report;
   }

@@ -117,7 +117,7 @@ Report execute(const CommandOptions& options, Context& context) {
     }
   }
   if (report.errors.empty() && !options.svg.empty()) {
-    if (auto drawable = check_drawing_target(options.svg, "--svg"); !drawable) {
+    if (auto drawable = check_target(options.svg, Content::drawing, "--svg"); !drawable) {
       report.fail(drawable.error());
     }
   }

@@ -373,8 +373,9 @@ Report execute(const PwmOptions& options, Context& context) {
   if (!report.errors.empty()) {
     return report;
   }
-  if (const auto drawable =
-          options.svg.empty() ? Result<void>() : check_drawing_target(options.svg, "--svg");
+  if (const auto drawable = options.svg.empty()
+                                ? Result<void>()
+                                : check_target(options.svg, Content::drawing, "--svg");
       !drawable) {
     report.fail(drawable.error());
     return report;

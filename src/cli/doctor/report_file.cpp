@@ -92,7 +92,7 @@ Result<void> prepare_report(const std::string& file, Context& context) {
   if (file == "-") {
     return fail(Code::usage, say<texts::doctor_to_stdout_no>(file));
   }
-  if (auto fit = check_log_target(file, "--report"); !fit) {
+  if (auto fit = check_target(file, Content::log, "--report"); !fit) {
     return fit;
   }
   if (auto ready = check_replaceable(file); !ready) {
