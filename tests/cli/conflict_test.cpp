@@ -44,6 +44,20 @@ std::ptrdiff_t writes_to(const Bench& bench, const std::string& log, int node) {
 
 } // namespace
 
+TEST_CASE("what is for a model does not leave out two of its servos on one node ID") {
+  const Fleet fleet(Scene()
+                        .servo("BLA21-12U-AB", 11, {{"serial_number", 240900001}})
+                        .servo("BLA21-12U-AB", 11, {{"serial_number", 240900002}})
+                        .servo("BLA21-12U-AB", 12, {{"serial_number", 240900003}}));
+  const std::string file = fleet.bench().file("model.json",
+                                              R"({"schema": "blactl-fleet/1", "servos": [
+          {"name": "all", "match": {"model": "BLA21-12U-AB"}, "set": {"smoothing": "on"}}]})");
+  for (const Arguments& arguments :
+       {Arguments{"apply", file, "-y", "--json"}, Arguments{"diff", file, "--json"}}) {
+    check_error(fleet.run(arguments), 9, "duplicate_node_id", "node ID 11");
+  }
+}
+
 TEST_CASE("two units with one node ID are named within three seconds") {
   const nlohmann::json differences[] = {{{"servo_id", 4}},
                                         {{"servo_id", 1}, {"serial_number", 77}},
@@ -176,6 +190,38 @@ TEST_CASE("a servo ID that another servo's ROM holds is not given, nor brought b
     REQUIRE(fleet.run({"save", "-n", "12", "-y"}).status == 0);
     CHECK(ids("11", "9", true).status == 0);
   }
+}
+
+TEST_CASE("a node ID that another servo's ROM holds, though it runs under another, is not given") {
+  const Fleet fleet(
+      Scene().servo("BLA21-12U-AB", 11, {{"faults", {{"stays", true}}}}).servo("BLA21-12U-AB", 12));
+  CHECK(fleet.run({"set", "-n", "11", "static_node_id=20", "--save", "-y"}).status == 1);
+  REQUIRE(fleet.run({"set", "-n", "11", "static_node_id=11", "-y"}).status == 0);
+  for (const Arguments& arguments :
+       {Arguments{"set", "-n", "12", "static_node_id=20", "-y", "--save", "--json"},
+        Arguments{"set", "-n", "12", "static_node_id=20", "-y", "--json"},
+        Arguments{"alloc", "--static", "-n", "12", "--id", "20", "-y", "--json"}}) {
+    check_error(fleet.run(arguments), 9, "duplicate_node_id",
+                "node 12 would have node ID 20, which node 11 has in its ROM");
+  }
+}
+
+TEST_CASE("a servo ID that another servo has come with since is not saved") {
+  const Fleet fleet(Scene()
+                        .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"servo_id", 1}})
+                        .servo("BLA21-12U-AB", 12, {{"serial_number", 2}, {"servo_id", 2}})
+                        .servo("BLA21-12U-AB", 13, {{"serial_number", 3}, {"servo_id", 40}})
+                        .joins(3, "2600ms"));
+  const Result applied =
+      fleet.apply({{"schema", "blactl-fleet/1"},
+                   {"servos",
+                    {{{"name", "a"}, {"match", {{"node_id", 11}}}, {"set", {{"smoothing", "off"}}}},
+                     {{"name", "b"}, {"match", {{"node_id", 12}}}, {"set", {{"servo_id", 40}}}}}}},
+                  {"--stagger", "3"});
+  INFO(applied.err);
+  CHECK(applied.status == 6);
+  CHECK(contains(applied.err, "servo ID 40"));
+  CHECK(fleet.rom("12", "servo_id") == 2);
 }
 
 TEST_CASE("a servo ID that is heard from a node that does not answer is not given") {

@@ -141,6 +141,7 @@ std::unique_ptr<SaveRestartJob> ChangeJob::restart() const {
                                   .patience = options_.identification.patience,
                                   .pace = options_.pace,
                                   .expected_free_since = begin_,
+                                  .given_servo_id = plan_.given_servo_id(),
                                   .may_be_driven = may_be_driven(),
                                   .next_servo_id = plan_.rom_servo_id};
   if (given.value_or(0) != 0) {
@@ -327,6 +328,7 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
   if (result_.error || !result_.returned) {
     return Stage::end;
   }
+  back_ = roster_.member(*result_.returned);
   return brings_unread_rom() ? to_show() : Stage::read_back;
 }
 
@@ -367,6 +369,13 @@ std::optional<Error> ChangeJob::of_another_unit(const Snapshot& now) const {
              : std::nullopt;
 }
 
+/// Whether it has restarted once more behind a silence: what others wrote to RAM since then was not
+/// heard, and passes for what ROM holds.
+bool ChangeJob::may_have_missed(const Snapshot& now) const {
+  const Member member = roster_.member(now.servo.id);
+  return member.boots != back_.boots && member.missed_until > back_.last_heard;
+}
+
 ChangeJob::Stage ChangeJob::conclude_read_back() {
   const Snapshot& now = read_->snapshot();
   if (auto other = of_another_unit(now)) { // nothing that it holds is told
@@ -397,6 +406,10 @@ ChangeJob::Stage ChangeJob::conclude_read_back() {
     result_.doubt(); // it may go on
     result_.is_verified = result_.saved = false;
     return Stage::end;
+  }
+  if (!unproven_ && may_have_missed(now)) {
+    unproven_ =
+        Error{Code::state, say<texts::unproven_since>(id), say<texts::run_again_hint>(), id};
   }
   result_.error = result_.error ? std::move(result_.error) : unproven_;
   result_.is_verified = !result_.error;

@@ -203,6 +203,7 @@ std::vector<Error> Rounds::check_ids() {
   for (const Plan& plan : plans) {
     auto error = plan.restart == RestartKind::save ? servo_id_conflict(*survey, plans, plan)
                                                    : conflict(*survey, plans, plan);
+    error = error ? std::move(error) : rom_node_id_conflict(*survey, plans, plan);
     if (error) {
       errors.push_back(std::move(*error));
     }

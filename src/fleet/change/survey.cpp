@@ -167,7 +167,9 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
       servo->servo_id = session.roster().member(servo->id).actuator_id;
     }
     if (record != nullptr && !servo->is_rom_unread) {
-      servo->rom_servo_id = bla::find(record->known_rom(snapshot, session), at::servo_id);
+      const bla::Values rom = record->known_rom(snapshot, session);
+      servo->rom_servo_id = bla::find(rom, at::servo_id);
+      servo->rom_static_node_id = bla::find(rom, at::static_node_id);
     }
     found.servos.push_back(*servo);
   }
@@ -212,6 +214,21 @@ std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Pla
     if (gives_new_servo_id(plan) && stays(plans, other) && other.rom_servo_id == servo_id) {
       return Error{Code::duplicate_servo_id,
                    say<texts::servo_id_given_is_in_rom>(id, *servo_id, other.id.value()),
+                   say<texts::servo_id_given_is_in_rom_hint>(other.id.value()), id};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> rom_node_id_conflict(const Survey& survey, std::span<const Plan> plans,
+                                          const Plan& plan) {
+  const std::uint8_t id = plan.before.servo.id.value();
+  const auto given = plan.given_node_id();
+  for (const Neighbour& other : survey.servos) {
+    if (given && other.id != plan.before.servo.id && stays(plans, other) &&
+        other.rom_static_node_id == given->value()) {
+      return Error{Code::duplicate_node_id,
+                   say<texts::node_id_given_is_in_rom>(id, given->value(), other.id.value()),
                    say<texts::servo_id_given_is_in_rom_hint>(other.id.value()), id};
     }
   }

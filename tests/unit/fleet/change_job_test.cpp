@@ -87,6 +87,12 @@ class Bench {
     started = known_.now;
   }
 
+  /// Likewise, at this moment.
+  void restart_now() {
+    restart_silently();
+    known_.hear_uptime(0);
+  }
+
   /// Only its uptime tells, when it is asked.
   void restart_silently() {
     ram = rom;
@@ -103,6 +109,17 @@ class Bench {
                                       .destination = NodeId(11)},
                            .payload = payload.bytes(),
                            .at = known_.now});
+  }
+
+  /// It sends as ever, for so long.
+  void is_heard(Duration time) {
+    for (const Time end = known_.now + time; known_.now < end; known_.now += 100ms) {
+      const auto id = static_cast<dronecan::TransferId>(sent_++ % dronecan::transfer_id_modulus);
+      known_.roster.hear(
+          message(dronecan::ActuatorStatus::type, 11, dronecan::ActuatorStatus{}.encode(), id)
+              .front(),
+          known_.now);
+    }
   }
 
   /// Time goes by.
@@ -233,6 +250,7 @@ class Bench {
   Acquaintance known_;
   Script script_;
   dronecan::Step step_ = std::nullopt;
+  unsigned sent_ = 0;    ///< of actuator.Status
   bool is_away_ = false; ///< it restarts because it was told to
 };
 
@@ -682,6 +700,21 @@ TEST_CASE("what another node writes after the restart hides what ROM holds") {
   CHECK(failure(result) == Code::state);
   CHECK(says(result, "node 40 wrote to node 11"));
   CHECK_FALSE(result.saved);
+}
+
+TEST_CASE("a second restart, behind a silence in which nobody was heard, proves nothing of ROM") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("SAVE");
+  bench.until("read 0x20");
+  bench.is_heard(200ms);
+  bench.live(4s);
+  bench.restart_now();
+  bench.is_heard(100ms);
+  bench.rom[at::reverse] = 0; // another tool has saved it, and then tries the wished value in RAM
+  bench.ram[at::reverse] = 1;
+  const ChangeResult& result = bench.finish();
+  CHECK_FALSE(result.saved);
+  CHECK(says(result, "has restarted since"));
 }
 
 TEST_CASE("what another node writes between the writes and SAVE is not saved") {

@@ -39,6 +39,10 @@ inline constexpr Text servo_id_given_is_taken{
     "node {} would have servo ID {}, which node {} has",
     "ノード {} のサーボ ID {} はノード {} と重複します",
 };
+inline constexpr Text node_id_given_is_in_rom{
+    "node {} would have node ID {}, which node {} has in its ROM, and gets with its next restart",
+    "ノード {} のノード ID {} は、ノード {} の ROM 内の ID (再起動後の ID) と重複します",
+};
 inline constexpr Text servo_id_given_is_in_rom{
     "node {} would have servo ID {}, which node {} has in its ROM, and gets with its next restart",
     "ノード {} のサーボ ID {} は、ノード {} の ROM 内の ID (再起動後の ID) と重複します",

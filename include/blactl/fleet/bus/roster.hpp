@@ -26,7 +26,8 @@ namespace blactl::fleet {
 struct Member {
   dronecan::NodeId id{};
   Time first_heard{}, last_heard{};
-  Time back_at{}; ///< its first frame after a silence in which another unit may have come
+  Time back_at{};      ///< its first frame after a silence in which another unit may have come
+  Time missed_until{}; ///< likewise, in which it may have been saved, restarted and written to
   std::optional<dronecan::NodeStatus> status{}; ///< the newest, from NodeStatus or a response
   Time status_at{};
   std::optional<std::uint8_t> actuator_id{}; ///< from actuator.Status: only servos send it
@@ -92,6 +93,9 @@ inline constexpr Duration offline_time = std::chrono::seconds(3);
 /// The listening time after which commanders, armed vehicles, shared IDs and used IDs have been
 /// heard.
 inline constexpr Duration bus_watch_time = std::chrono::milliseconds(1100);
+
+/// The longest start of a servo, in which nobody can write to it (unproven).
+inline constexpr Duration usual_start = std::chrono::milliseconds(500);
 
 /// A servo sends actuator.Status every 100 ms (table 2-2): another unit that is switched on in its
 /// place keeps silent for longer (unproven).
@@ -259,11 +263,9 @@ class Roster {
   [[nodiscard]] std::optional<dronecan::NodeId> giver_of(dronecan::NodeId given,
                                                          dronecan::NodeId except, Time since) const;
 
-  /// As CommandWatch::giver_of(), with a servo ID.
+  /// As CommandWatch::giver_of(), with a servo ID; or a servo that has come to the bus with it.
   [[nodiscard]] std::optional<dronecan::NodeId>
-  giver_of_servo_id(std::int64_t given, dronecan::NodeId except, Time since) const {
-    return commands_.giver_of(bla::address::servo_id, given, except, since);
-  }
+  giver_of_servo_id(std::int64_t given, dronecan::NodeId except, Time since) const;
 
   /// As CommandWatch::setter_of().
   [[nodiscard]] std::optional<dronecan::NodeId>
@@ -303,6 +305,7 @@ class Roster {
   void greet(const Member& sender, Time at);
   void take(UnitWatch::Start start, Member& sender);
   [[nodiscard]] std::optional<Time> doubled_at(dronecan::NodeId id) const;
+  [[nodiscard]] bool has_come(const Member& member, Time since) const;
   void begin_unit(Member& member);
 
   dronecan::NodeId local_;

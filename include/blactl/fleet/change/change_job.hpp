@@ -102,6 +102,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] Stage conclude_look();
   [[nodiscard]] std::optional<Error> of_another_unit(const Snapshot& now) const;
   [[nodiscard]] Stage conclude_read_back();
+  [[nodiscard]] bool may_have_missed(const Snapshot& now) const;
   void conclude_read_shown();
   [[nodiscard]] std::optional<RomReading> rom_reading(const Snapshot& now) const;
   [[nodiscard]] std::optional<RomReading> unread_rom(const Snapshot& now) const;
@@ -140,6 +141,7 @@ class ChangeJob final : public dronecan::Job {
   bool may_erase_again_ = true;
   bool was_erased_ = false; ///< as far as known
   bool reads_again_ = false;
+  Member back_{};                          ///< as it was when it was back from our restart
   std::optional<Error> unproven_{};        ///< why that proves nothing, even if all is as expected
   std::optional<dronecan::Health> health_; ///< as it was read
   int looks_ = 0;

@@ -22,7 +22,8 @@ struct Neighbour {
   std::optional<std::int64_t> servo_id{}; ///< by which ArrayCommand reaches it
   std::optional<std::int64_t> static_node_id{};
   std::optional<std::int64_t> rom_servo_id{}; ///< that its next restart brings, as far as known
-  bool is_foreign = false;                    ///< of another make
+  std::optional<std::int64_t> rom_static_node_id{}; ///< likewise
+  bool is_foreign = false;                          ///< of another make
   bool is_rom_unread = false; ///< it runs on initial values, its IDs in ROM may be others
 };
 
@@ -58,6 +59,10 @@ struct Survey {
 /// The same check for the servo ID only.
 [[nodiscard]] std::optional<Error> servo_id_conflict(const Survey& survey,
                                                      std::span<const Plan> plans, const Plan& plan);
+
+/// Whether another servo, whose ROM stays as it is, has the given node ID in it as far as known.
+[[nodiscard]] std::optional<Error>
+rom_node_id_conflict(const Survey& survey, std::span<const Plan> plans, const Plan& plan);
 
 /// Likewise, of a servo that was first heard after the survey, by the servo ID that it sends.
 [[nodiscard]] std::optional<Error> newcomer_conflict(const Roster& roster, Time surveyed,
