@@ -57,6 +57,8 @@ constexpr std::array reasons{
     Reason{"other_initializes", by_other},
     Reason{"other_writes", by_other},
     Reason{"other_repeats", by_other},
+    Reason{"own_id_taken", "A frame that the command before left in the adapter passes for one of "
+                           "another node on its second ID."},
     Reason{"allocator", "Another allocator gives IDs meanwhile."},
 };
 
