@@ -1,5 +1,6 @@
 #include "blactl/base/text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -77,6 +78,22 @@ std::string printable(std::string_view foreign) {
     foreign.remove_prefix(character.size());
   }
   return out;
+}
+
+std::string shell_word(std::string_view foreign) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                     "0123456789._/:=+,@%-";
+  const std::string text = printable(foreign);
+  const bool is_plain = std::ranges::all_of(
+      text, [&](char c) { return plain.contains(c) || static_cast<std::uint8_t>(c) >= 0x80; });
+  if (is_plain && !text.empty()) {
+    return text;
+  }
+  std::string quoted = "'";
+  for (const char c : text) {
+    quoted += c == '\'' ? std::string_view("'\\''") : std::string_view(&c, 1);
+  }
+  return quoted + "'";
 }
 
 } // namespace blactl

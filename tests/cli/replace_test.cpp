@@ -268,7 +268,7 @@ TEST_CASE("apply tells how to replace a servo that is missing") {
   const Place place(with(GENERATE(33, 0)));
   const Result refused = place.fleet.run({"apply", place.file, "-y", "--json"});
   check_error(refused, 4, "not_found", "no servo for 'right aileron'");
-  CHECK(contains(refused.err, "blactl replace " + place.file + " \"right aileron\""));
+  CHECK(contains(refused.err, "blactl replace " + place.file + " 'right aileron'"));
 }
 
 TEST_CASE("apply does not take a waiting servo for one that has another unique ID") {

@@ -52,4 +52,8 @@ template <const Text& text, class... Args> [[nodiscard]] std::string say(const A
 /// characters, escape sequences and broken UTF-8 become \xNN.
 [[nodiscard]] std::string printable(std::string_view foreign);
 
+/// As a word of a shell, for a command that is typed as it is shown: quoted where a shell would
+/// take it for more than a word. Otherwise as printable().
+[[nodiscard]] std::string shell_word(std::string_view foreign);
+
 } // namespace blactl

@@ -37,9 +37,9 @@ inline constexpr Text replace_would_let_in{
     "ノード ID 割当て待ちのユニット (固有 ID {}) に、先に{}を割り当ててから、機種が合えば '{}' "
     "の代わりに設定します"};
 inline constexpr Text apply_replaced_hint{
-    "connect it; if another one is there in its place: blactl replace {} \"{}\"; nothing was "
+    "connect it; if another one is there in its place: blactl replace {} {}; nothing was "
     "written",
-    "接続して下さい。別のサーボに交換した場合: blactl replace {} \"{}\" (何も書き込んでいません)"};
+    "接続して下さい。別のサーボに交換した場合: blactl replace {} {} (何も書き込んでいません)"};
 inline constexpr Text apply_entry_one{"--entry is for one servo, not for {}",
                                       "--entry の対象は 1 台だけです (現在の対象: {} 台)"};
 inline constexpr Text apply_entry_one_hint{"name one of them with -n",

@@ -135,9 +135,9 @@ std::string hint_for_missing(const fleet::FleetFile& file, const fleet::FleetEnt
   const bool is_another_there = !matched.extra.empty() || !roster.requests().empty();
   const bool may_be_replaced =
       is_another_there && !entry.name.empty() && entry.match.means_one() && file.file != "-";
-  const std::string hint =
-      may_be_replaced ? say<texts::apply_replaced_hint>(printable(file.file), printable(entry.name))
-                      : say<texts::apply_missing_hint>();
+  const std::string hint = may_be_replaced ? say<texts::apply_replaced_hint>(shell_word(file.file),
+                                                                             shell_word(entry.name))
+                                           : say<texts::apply_missing_hint>();
   const std::size_t waiting = roster.pending().size();
   const auto& unit = entry.match.unique_id;
   const bool may_wait = waiting > 0 && (!unit || roster.is_pending(*unit));
@@ -186,7 +186,7 @@ Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom
   goals.missing = units(matched.missing);
   if (goals.goals.empty() && goals.errors.empty() && goals.would_let_in == 0) {
     goals.errors.push_back({Code::not_found, say<texts::apply_nobody>(printable(file.file)),
-                            say<texts::apply_nobody_hint>(printable(file.file)), std::nullopt});
+                            say<texts::apply_nobody_hint>(shell_word(file.file)), std::nullopt});
   }
   return goals;
 }

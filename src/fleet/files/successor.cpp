@@ -35,7 +35,7 @@ std::optional<Error> refuse_model(const FleetFile& file, const FleetEntry& entry
   return Error{
       Code::model_mismatch,
       say<texts::successor_model>(id, servo.identity.model(), entry.name, printable(model)),
-      say<texts::successor_model_hint>(printable(file.file), entry.name, id), id};
+      say<texts::successor_model_hint>(shell_word(file.file), shell_word(entry.name), id), id};
 }
 
 Error none(const FleetFile& file, const FleetEntry& entry, const Roster& roster) {
@@ -79,7 +79,7 @@ Result<Successor> find_successor(const FleetFile& file, const FleetEntry& entry,
                                  std::span<const NodeId> selected, const bla::Profiles& profiles) {
   if (!entry.match.means_one()) {
     return fail(Code::usage, say<texts::successor_of_all>(entry.name),
-                say<texts::successor_of_all_hint>(printable(file.file)));
+                say<texts::successor_of_all_hint>(shell_word(file.file)));
   }
   const auto matched = match(file, roster, Targets(), profiles);
   if (!matched.errors.empty()) {
@@ -113,7 +113,7 @@ Error still_there(const FleetFile& file, const FleetEntry& entry, NodeId id) {
   return {Code::several_servos,
           has_id ? say<texts::successor_old_there>(entry.name, id.value())
                  : say<texts::successor_old_waits>(entry.name),
-          say<texts::successor_old_there_hint>(printable(file.file)),
+          say<texts::successor_old_there_hint>(shell_word(file.file)),
           has_id ? std::optional(id.value()) : std::nullopt};
 }
 

@@ -99,8 +99,8 @@ inline constexpr Text successor_has_entry_hint{"name the new servo with -n",
 inline constexpr Text successor_model{"node {} is a {}, '{}' is for a {}",
                                       "ノード {} の機種は {} です ('{}' の機種: {})"};
 inline constexpr Text successor_model_hint{
-    "if another model is meant: blactl apply {} --entry \"{}\" -n {}",
-    "別の機種でよい場合: blactl apply {} --entry \"{}\" -n {}"};
+    "if another model is meant: blactl apply {} --entry {} -n {}",
+    "別の機種でよい場合: blactl apply {} --entry {} -n {}"};
 
 // Messages about labels.
 inline constexpr Text label_line{"label {}", "ラベル {}"};

@@ -56,3 +56,13 @@ TEST_CASE("broken UTF-8 is spelled out byte by byte") {
   CHECK(printable("\xE5\x8E") == "\\xe5\\x8e"); // cut off
   CHECK(printable("\x80") == "\\x80");
 }
+
+TEST_CASE("a name is one word of a shell, whatever is in it") {
+  CHECK(shell_word("wing.json") == "wing.json");
+  CHECK(shell_word("翼.json") == "翼.json");
+  CHECK(shell_word("") == "''");
+  CHECK(shell_word("right aileron") == "'right aileron'");
+  CHECK(shell_word("joe's") == R"('joe'\''s')");
+  CHECK(shell_word("$(reboot)") == "'$(reboot)'");
+  CHECK(shell_word("a\nb") == R"('a\x0ab')");
+}
