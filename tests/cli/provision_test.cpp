@@ -348,6 +348,20 @@ TEST_CASE("another unit with the unique ID of one that was here is told, not ski
   CHECK(run.told() == "pass 1 11; fail duplicate_unique_id");
 }
 
+TEST_CASE("scrap of a unit that was given no IDs frees none of its twin") {
+  const std::string unit = "00112233445566778899aabbccddeeff";
+  const Hall hall({{.serial = 101, .from = 1, .to = 30, .more = {{"unique_id", unit}}},
+                   {.serial = 102, .from = 40, .to = 60, .more = {{"unique_id", unit}}}});
+  [[maybe_unused]] const Result run = hall.provision({"--count", "2"});
+  const auto records = hall.ledger();
+  REQUIRE(records.size() == 2);
+  const std::string failed = records[1]["record_id"];
+  const Result refused = hall.run({"ledger", "--scrap", failed, "--reason", "x", "-y", "--json"});
+  check_error(refused, 9, "duplicate_unique_id", "serial number 101");
+  const std::string passed = records[0]["record_id"];
+  CHECK(hall.run({"ledger", "--scrap", passed, "--reason", "x", "-y"}).status == 0);
+}
+
 TEST_CASE("what a killed station had begun is told at the next start, and done anew") {
   const Hall hall({{.serial = 101, .from = 1, .to = 3000}});
   {

@@ -42,6 +42,26 @@ Result<void> check_idle(const LedgerStore& ledger, const LedgerRecord& record) {
                     say<texts::scrap_at_work_hint>());
 }
 
+/// Two units with one unique ID: the IDs are those of the one that has passed.
+Result<void> check_unit(const LedgerStore& ledger, const LedgerRecord& record) {
+  std::optional<std::int64_t> other;
+  const auto read = ledger.each({.verdict = std::string(verdict::pass),
+                                 .unique_id = record.unique_id,
+                                 .recipe = record.recipe},
+                                [&](const LedgerRecord& passed) {
+                                  const bool is_other =
+                                      record.serial_number && passed.serial_number &&
+                                      passed.serial_number != record.serial_number;
+                                  other = is_other ? passed.serial_number : other;
+                                  return true;
+                                });
+  if (!read || !other) {
+    return read;
+  }
+  return fail(Code::duplicate_unique_id, say<texts::scrap_of_twin>(*record.serial_number, *other),
+              say<texts::scrap_of_twin_hint>());
+}
+
 LedgerRecord scrapped(const LedgerRecord& record, const LedgerRecord& common, std::string reason,
                       WallTime now) {
   LedgerRecord scrap = begun_record(common, now);
@@ -84,7 +104,8 @@ Result<LedgerRecord> scrap(LedgerStore& ledger, state::CounterStore& counters,
   if (!unit) {
     return fail(Code::state, say<texts::scrap_no_unit>());
   }
-  const auto idle = check_idle(ledger, record);
+  auto idle = check_idle(ledger, record);
+  idle = idle ? check_unit(ledger, record) : idle;
   auto last = idle ? last_of(ledger, {.unique_id = record.unique_id, .recipe = record.recipe})
                    : Result<std::optional<LedgerRecord>>(std::unexpected(idle.error()));
   if (!last) {

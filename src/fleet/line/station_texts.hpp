@@ -49,6 +49,11 @@ inline constexpr Text station_unproven{"it is not proven what the servo holds no
 inline constexpr Text scrap_at_work{"the station {} works on this servo",
                                     "ステーション {} がこのサーボを処理中です"};
 inline constexpr Text scrap_at_work_hint{"wait until it has ended", "処理の終了を待って下さい"};
+inline constexpr Text scrap_of_twin{
+    "serial number {} was given no IDs: those of its unique ID are those of serial number {}",
+    "シリアル番号 {} に ID は割り当てていません。この固有 ID の ID はシリアル番号 {} のものです"};
+inline constexpr Text scrap_of_twin_hint{"its record stays; nothing has to be freed",
+                                         "記録はそのままで、解放する ID はありません"};
 inline constexpr Text scrap_no_record{"no record has the record_id {}",
                                       "record_id {} の記録がありません"};
 inline constexpr Text scrap_no_record_hint{"find it with blactl ledger --serial N --json",
