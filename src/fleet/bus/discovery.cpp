@@ -157,6 +157,25 @@ Result<void> Discovery::identify_servos() {
   }
 }
 
+/// A servo may be exchanged for another one while it is identified, or before it is read. Servo IDs
+/// are no evidence: the command itself may change them.
+void Discovery::choose(const Targets& targets, std::set<NodeId> chosen) {
+  const bool tells_units = !targets.selectors.empty() &&
+                           std::ranges::none_of(targets.selectors, [](const Selector& selector) {
+                             return selector.key == Selector::Key::servo_id;
+                           });
+  for (const NodeId id : targets.ids) {
+    chosen.erase(id);
+  }
+  if (tells_units) {
+    session_.records().choose(std::move(chosen), [selectors = targets.selectors,
+                                                  &profiles = profiles_](const Servo& servo) {
+      return std::ranges::any_of(
+          selectors, [&](const Selector& selector) { return selector.matches(servo, profiles); });
+    });
+  }
+}
+
 Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
   Selection selection;
   if (targets.need_search()) {
@@ -201,7 +220,8 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
     return !one.node_id || !chosen.contains(NodeId(*one.node_id)); // it is read, or its error told
   });
   selection.ids.assign(chosen.begin(), chosen.end());
-  if (chosen.empty() && selection.errors.empty()) {
+  choose(targets, std::move(chosen));
+  if (selection.ids.empty() && selection.errors.empty()) {
     selection.errors.push_back(unless_shared(session_.roster(), no_servo(session_.roster())));
   }
   return selection;

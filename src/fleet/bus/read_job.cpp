@@ -73,6 +73,9 @@ Step ReadJob::begin(Time now) {
     snapshot_.error = not_a_servo(id_, snapshot_.servo.name);
     return std::nullopt;
   }
+  if (roster_.is_exchanged(snapshot_.servo)) {
+    return give_up({Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id});
+  }
   auto wanted = choice_(snapshot_.servo);
   if (!wanted) {
     snapshot_.error = Error{wanted.error().code, say<texts::about_node>(id, wanted.error().message),

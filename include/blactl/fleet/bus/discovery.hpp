@@ -85,6 +85,7 @@ class Discovery final : private Roster::Listener {
   [[nodiscard]] std::vector<std::optional<Error>> identifications() const;
 
  private:
+  void choose(const Targets& targets, std::set<dronecan::NodeId> chosen);
   enum class Attention : std::uint8_t { none, unit, all };
 
   void on_new_unit(const Member& member) override;

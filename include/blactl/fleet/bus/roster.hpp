@@ -15,9 +15,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace blactl::fleet {
@@ -263,6 +265,18 @@ class Roster {
   [[nodiscard]] std::optional<dronecan::NodeId> giver_of(dronecan::NodeId given,
                                                          dronecan::NodeId except, Time since) const;
 
+  /// Who is meant by what servos tell of themselves, and which nodes those were: what answers there
+  /// later may be another unit.
+  void choose(std::set<dronecan::NodeId> nodes, std::function<bool(const Servo&)> is_meant) {
+    chosen_ = std::move(nodes);
+    is_meant_ = std::move(is_meant);
+  }
+
+  /// Whether another unit is in the place of one that was chosen.
+  [[nodiscard]] bool is_exchanged(const Servo& servo) const {
+    return chosen_.contains(servo.id) && !is_meant_(servo);
+  }
+
   /// As CommandWatch::giver_of(), with a servo ID; or a servo that has come to the bus with it.
   [[nodiscard]] std::optional<dronecan::NodeId>
   giver_of_servo_id(std::int64_t given, dronecan::NodeId except, Time since) const;
@@ -313,6 +327,8 @@ class Roster {
   std::vector<Listener*> listeners_;
   std::map<dronecan::NodeId, Member> members_;
   std::array<bool, 128> heard_{};
+  std::set<dronecan::NodeId> chosen_;
+  std::function<bool(const Servo&)> is_meant_;
   std::array<UnitWatch, 128> watches_{};
   CommandWatch commands_;
   dronecan::AnswerWatch answers_;
