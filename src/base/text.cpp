@@ -83,7 +83,7 @@ std::string printable(std::string_view foreign) {
 std::string shell_word(std::string_view foreign) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
                                      "0123456789._/:=+,@%-";
-  const std::string text = printable(foreign);
+  std::string text = printable(foreign);
   const bool is_plain = std::ranges::all_of(
       text, [&](char c) { return plain.contains(c) || static_cast<std::uint8_t>(c) >= 0x80; });
   if (is_plain && !text.empty()) {
