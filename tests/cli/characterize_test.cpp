@@ -166,14 +166,15 @@ TEST_CASE("characterize sends nothing that is forbidden, and 0x27 alone once out
 TEST_CASE("characterize asks, and without a terminal the answer is no") {
   const Bench bench;
   const std::string log = (bench.folder() / "bus.log").string();
-  const std::string path = bench.file("facts.json", "as it was");
+  const std::string before = R"({"schema": "blactl-facts/1"})"; // as it was
+  const std::string path = bench.file("facts.json", before);
   const Result result = one_servo().run(bench, {"characterize", path, "-n", "11", "--record", log});
   CHECK(result.status == 7);
   CHECK(codes(result) == std::vector<std::string>{"not_confirmed"});
   CHECK(contains(result.err, "restarted 3 times"));
   CHECK(contains(result.err, "out of range"));
   CHECK(writes(bench, log).empty());
-  CHECK(content(path) == "as it was");
+  CHECK(content(path) == before);
 }
 
 TEST_CASE("the question says what happens, to whom it may concern") {
