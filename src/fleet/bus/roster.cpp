@@ -371,30 +371,6 @@ std::optional<NodeId> Roster::giver_of(NodeId given, NodeId except, Time since) 
   return commands_.giver_of(bla::address::static_node_id, given.value(), except, since);
 }
 
-/// A servo of a change may have come from another node ID, which is known as soon as it was asked.
-bool Roster::has_come(const Member& member, Time since) const {
-  constexpr Duration time_to_ask = std::chrono::milliseconds(300);
-  if (member.first_heard <= since) {
-    return false;
-  }
-  if (!member.info) {
-    return member.last_heard - member.first_heard > time_to_ask;
-  }
-  return std::ranges::none_of(members_, [&](const auto& entry) {
-    return entry.first != member.id && entry.second.is_unit(member.info->unique_id);
-  });
-}
-
-std::optional<NodeId> Roster::giver_of_servo_id(std::int64_t given, NodeId except,
-                                                Time since) const {
-  for (const auto& [id, member] : members_) {
-    if (id != except && member.actuator_id == given && has_come(member, since)) {
-      return id;
-    }
-  }
-  return commands_.giver_of(bla::address::servo_id, given, except, since);
-}
-
 state::NodeIds Roster::ids_in_use(const dronecan::UniqueId& unit) const {
   state::NodeIds ids;
   ids.set(local_.value());

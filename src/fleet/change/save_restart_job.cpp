@@ -1,7 +1,6 @@
 #include "blactl/fleet/change/save_restart_job.hpp"
 
 #include "blactl/base/hex.hpp"
-#include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
@@ -112,16 +111,6 @@ Step SaveRestartJob::check_unit(const Outcome& outcome) {
     return give_up({Code::duplicate_node_id,
                     say<texts::id_given_is_kept>(id, options_.expected->value()),
                     say<texts::id_given_is_kept_hint>(), id});
-  }
-  const auto holder =
-      options_.kind == RestartKind::save && options_.given_servo_id
-          ? roster_.giver_of_servo_id(*options_.given_servo_id, id_, options_.expected_free_since)
-          : std::nullopt;
-  if (holder) {
-    return give_up(
-        {Code::duplicate_servo_id,
-         say<texts::servo_id_given_is_taken>(id, *options_.given_servo_id, holder->value()),
-         say<texts::servo_id_taken_hint>(), id});
   }
   // SAVE keeps the present RAM: it must be unchanged since it was read, whatever was proven since
   if (options_.kind == RestartKind::save && roster_.writer_to(id_, servo_.since)) {

@@ -277,9 +277,11 @@ class Roster {
     return chosen_.contains(servo.id) && !is_meant_(servo);
   }
 
-  /// As CommandWatch::giver_of(), with a servo ID; or a servo that has come to the bus with it.
+  /// As CommandWatch::giver_of(), with a servo ID.
   [[nodiscard]] std::optional<dronecan::NodeId>
-  giver_of_servo_id(std::int64_t given, dronecan::NodeId except, Time since) const;
+  giver_of_servo_id(std::int64_t given, dronecan::NodeId except, Time since) const {
+    return commands_.giver_of(bla::address::servo_id, given, except, since);
+  }
 
   /// As CommandWatch::setter_of().
   [[nodiscard]] std::optional<dronecan::NodeId>
@@ -319,7 +321,6 @@ class Roster {
   void greet(const Member& sender, Time at);
   void take(UnitWatch::Start start, Member& sender);
   [[nodiscard]] std::optional<Time> doubled_at(dronecan::NodeId id) const;
-  [[nodiscard]] bool has_come(const Member& member, Time since) const;
   void begin_unit(Member& member);
 
   dronecan::NodeId local_;

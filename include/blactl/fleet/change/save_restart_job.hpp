@@ -44,9 +44,8 @@ class SaveRestartJob final : public dronecan::Job {
     /// The future node ID of the servo, if known.
     std::optional<dronecan::NodeId> expected{};
     Time expected_free_since{}; ///< whoever is heard on that ID after this is another unit
-    std::optional<std::int64_t> given_servo_id{}; ///< by SAVE; free when the change began
-    bool may_be_driven = false;                   ///< also while another node drives the servo
-    std::optional<std::int64_t> next_servo_id{};  ///< that ROM brings back, as far as known
+    bool may_be_driven = false; ///< also while another node drives the servo
+    std::optional<std::int64_t> next_servo_id{}; ///< that ROM brings back, as far as known
   };
 
   /// `servo` has a unique ID; `roster` outlives the job.
