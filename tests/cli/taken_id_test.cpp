@@ -81,3 +81,23 @@ TEST_CASE("a node ID that RAM held before a SAVE without an end stays in the all
   REQUIRE(entries.size() == 1);
   CHECK(entries[0]["node_id"] == 30);
 }
+
+TEST_CASE("an ID in the memory of a servo that failed is not given to another one") {
+  Scene scene;
+  scene.servo("BLA21-12U-AB", 18,
+              {{"serial_number", 1}, {"servo_id", 1}, {"faults", {{"refuse_opcodes", true}}}});
+  scene.servo("BLA21-12U-AB", 11, {{"serial_number", 2}, {"servo_id", 2}});
+  Fleet fleet(scene);
+  REQUIRE(fleet.run({"set", "-n", "18", "static_node_id=16", "-y"}).status == 0);
+  const Document servos = {
+      {{"name", "one"},
+       {"match", {{"serial_number", 1}}},
+       {"set", {{"static_node_id", 18}, {"smoothing", "off"}}}},
+      {{"name", "two"}, {"match", {{"serial_number", 2}}}, {"set", {{"static_node_id", 16}}}}};
+  const Result result = fleet.apply({{"schema", "blactl-fleet/1"}, {"servos", servos}});
+  INFO(result.err);
+  CHECK(result.status != 0);
+  CHECK(statuses(result) == std::vector<std::string>{"failed", "failed"});
+  CHECK(contains(result.err, "node 11 was to get node ID 16, whose holder has failed"));
+  CHECK(fleet.rom_writes() == 0);
+}

@@ -54,6 +54,13 @@ std::optional<NodeId> next_id(const UnitChange& unit) {
              : std::nullopt;
 }
 
+/// A unit that failed, and whose memory may hold this ID for its next start.
+bool may_start_with(const UnitChange& unit, NodeId id) {
+  const bool held_it = !unit.has_made_way &&
+                       unit.plan.before.raw(bla::address::static_node_id) == id.value();
+  return unit.has_failed() && (held_it || next_id(unit) == id);
+}
+
 } // namespace
 
 std::vector<Error> Rounds::carry_out(const Hook& hook) {
@@ -160,8 +167,15 @@ Result<void> Rounds::put(const Round& round) {
              : table_->enter(entries, session_.wall(), state::AllocationStore::Former::yields);
 }
 
-/// Its previous holder has left, and no unit was heard under it since.
+/// Its previous holder has left, no unit was heard under it since, and none that failed may start
+/// with it.
 bool Rounds::is_free(const IdMove& move) const {
+  const bool is_in_memory = std::ranges::any_of(units_, [&](const UnitChange& unit) {
+    return unit.unique_id != move.unique_id && may_start_with(unit, move.to);
+  });
+  if (is_in_memory) {
+    return false;
+  }
   const Member* there = session_.roster().find(move.to);
   if (move.to == move.from || there == nullptr || !session_.roster().heard(move.to)) {
     return move.to != session_.roster().local();
@@ -174,8 +188,8 @@ bool Rounds::is_free(const IdMove& move) const {
 Error Rounds::why_not_free(const IdMove& move) const {
   const std::uint8_t from = move.from.value(), to = move.to.value();
   const bool is_ours = std::ranges::any_of(units_, [&](const UnitChange& unit) {
-    return unit.plan.before.servo.id == move.to && unit.unique_id != move.unique_id &&
-           unit.has_failed();
+    return unit.unique_id != move.unique_id && unit.has_failed() &&
+           (unit.plan.before.servo.id == move.to || may_start_with(unit, move.to));
   });
   if (!is_ours) {
     return {Code::duplicate_node_id, say<texts::id_given_is_kept>(from, to),

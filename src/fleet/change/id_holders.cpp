@@ -13,6 +13,14 @@ bool moves(const dronecan::UniqueId& unit, std::span<const Wish> wishes) {
   return std::ranges::find(wishes, unit, &Wish::unique_id) != wishes.end();
 }
 
+/// The register of a member; empty: it is not known, or holds what the unit is to get, which ROM
+/// may lack.
+std::optional<std::int64_t> held_id(const Member& member, std::span<const Wish> wishes) {
+  const auto wish = std::ranges::find(wishes, member.info->unique_id, &Wish::unique_id);
+  const bool is_wanted = wish != wishes.end() && member.static_node_id == wish->node_id.value();
+  return is_wanted ? std::nullopt : member.static_node_id;
+}
+
 } // namespace
 
 bool is_here(const Roster& roster, const dronecan::UniqueId& unit) {
@@ -28,8 +36,7 @@ std::vector<IdHolder> holders(const Roster& roster, std::span<const Wish> wishes
       continue;
     }
     const auto& unique_id = member.info->unique_id;
-    const IdHolder unit{unique_id, id,
-                        moves(unique_id, wishes) ? std::nullopt : member.static_node_id};
+    const IdHolder unit{unique_id, id, held_id(member, wishes)};
     const auto same = std::ranges::find(units, unique_id, &IdHolder::unique_id);
     if (same == units.end()) {
       units.push_back(unit);
