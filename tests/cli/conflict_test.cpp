@@ -196,7 +196,10 @@ TEST_CASE("a node ID that another servo's ROM holds, though it runs under anothe
   const Fleet fleet(
       Scene().servo("BLA21-12U-AB", 11, {{"faults", {{"stays", true}}}}).servo("BLA21-12U-AB", 12));
   CHECK(fleet.run({"set", "-n", "11", "static_node_id=20", "--save", "-y"}).status == 1);
-  REQUIRE(fleet.run({"set", "-n", "11", "static_node_id=11", "-y"}).status == 0);
+  const bool is_ours = GENERATE(true, false);
+  const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  REQUIRE(fleet.run({"set", "-n", "11", "static_node_id=11", "-y"}, is_ours ? Options() : other)
+              .status == 0);
   for (const Arguments& arguments :
        {Arguments{"set", "-n", "12", "static_node_id=20", "-y", "--save", "--json"},
         Arguments{"set", "-n", "12", "static_node_id=20", "-y", "--json"},

@@ -260,6 +260,22 @@ bla::Values History::known_rom(const Snapshot& ram, const Session& session) {
   return proven ? std::move(*proven) : recorded_rom(ram, session).values;
 }
 
+bla::Values History::saved_since_start(const Servo& servo, const Session& session) const {
+  const auto started = start_of(servo, session);
+  auto entry = started ? snapshots_.last(*servo.unique_id)
+                       : Result<std::optional<state::SnapshotEntry>>();
+  while (entry && *entry && !(*entry)->saved && (*entry)->at >= *started) {
+    entry = snapshots_.before(**entry);
+  }
+  bla::Values values;
+  if (entry && *entry && (*entry)->saved && (*entry)->at >= *started) {
+    for (const auto& [address, raw] : (*entry)->written) {
+      values.emplace(bla::Address(address), raw);
+    }
+  }
+  return values;
+}
+
 LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
   const bool lacks_one =
       std::ranges::any_of(ids, [&](bla::Address id) { return ram.raw(id) == 0; });

@@ -167,7 +167,8 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
       servo->servo_id = session.roster().member(servo->id).actuator_id;
     }
     if (record != nullptr && !servo->is_rom_unread) {
-      const bla::Values rom = record->known_rom(snapshot, session);
+      bla::Values rom = record->known_rom(snapshot, session);
+      rom.merge(record->saved_since_start(snapshot.servo, session));
       servo->rom_servo_id = bla::find(rom, at::servo_id);
       servo->rom_static_node_id = bla::find(rom, at::static_node_id);
     }

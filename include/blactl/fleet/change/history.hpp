@@ -116,6 +116,10 @@ class History {
   /// What its ROM holds, as far as proven, else as far as recorded.
   [[nodiscard]] bla::Values known_rom(const Snapshot& ram, const Session& session);
 
+  /// What a SAVE of this program has put into its ROM, perhaps, since this servo started: it has
+  /// not restarted as it should.
+  [[nodiscard]] bla::Values saved_since_start(const Servo& servo, const Session& session) const;
+
   /// Empty: none, or they were changed on purpose since.
   [[nodiscard]] LostIds lost_ids(const Snapshot& ram, const Session& session) const;
 
