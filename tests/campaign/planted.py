@@ -8,9 +8,10 @@
 FOLDER gets the copy and its build. Every bug of planted.json is a place in the sources: what stands
 there, which must be found just once, and what stands there instead while the bug is switched on: one
 build holds them all. An entry without "instead" switches its statement off; one that a second check
-would find out has that in "and": users meet the bug only without both. For each bug every N-th
-single fault of each command is tried, then random episodes, until something is found; for those
-that are found "by" lines, production lines are played, then every N-th single fault of a calm one.
+would find out has that in "and": users meet the bug only without both. For each bug a few random
+episodes are played, then every N-th single fault of each command, then the other episodes, until
+something is found; for those that are found "by" lines, production lines are played, then every
+N-th single fault of a calm one.
 Exit status 1: a bug was not found. --check only looks whether each has its place in the sources.
 """
 
@@ -26,6 +27,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+FIRST_EPISODES = 300  # most bugs are found by them, in seconds
 SWITCH = """#pragma once
 #include <cstdlib>
 #include <cstring>
@@ -121,7 +123,8 @@ def search(folder, bug, given):
     if bug.get("by") == "lines":
         ways = [[*seed, "--lines", str(given.lines)], [*seed, "--lines", "2", *each]]
     else:
-        ways = [each, [*seed, "--episodes", str(given.episodes)]]
+        ways = [[*seed, "--episodes", str(min(given.episodes, FIRST_EPISODES))], each,
+                [*seed, "--episodes", str(given.episodes)]]
     runs, what = 0, None
     for words in ways:
         if what is None:
