@@ -212,17 +212,17 @@ TEST_CASE("a node ID that another servo's ROM holds, though it runs under anothe
 TEST_CASE(
     "a servo that is exchanged while it is looked for is not taken for the one that is meant") {
   constexpr int meant = 240900001, other = 240900002;
+  const std::string selector = GENERATE("serial:240900001", "servo:1");
   int refused = 0;
   for (int gone = 1140; gone < 1190; gone += 2) { // its second reading, when it is no longer young
     for (const int gap : {60, 300}) {
       Scene scene;
-      scene.servo("BLA21-12U-AB", 11, {{"serial_number", meant}})
-          .servo("BLA21-12U-AB", 11, {{"serial_number", other}})
+      scene.servo("BLA21-12U-AB", 11, {{"serial_number", meant}, {"servo_id", 1}})
+          .servo("BLA21-12U-AB", 11, {{"serial_number", other}, {"servo_id", 2}})
           .event(meant, "power_off", std::to_string(gone) + "ms")
           .joins(other, std::to_string(gone + gap) + "ms");
-      const Result set =
-          scene.run({"set", "-n", "serial:240900001", "angle_p_gain=7", "-y", "--json"});
-      INFO(gone << ' ' << gap << set.out << set.err);
+      const Result set = scene.run({"set", "-n", selector, "angle_p_gain=7", "-y", "--json"});
+      INFO(selector << ' ' << gone << ' ' << gap << set.out << set.err);
       refused += set.status != 0 ? 1 : 0;
       for (const auto& node : json(set.out)["nodes"]) {
         CHECK_FALSE((set.status == 0 && node["serial_number"] != meant));

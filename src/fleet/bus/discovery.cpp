@@ -157,23 +157,30 @@ Result<void> Discovery::identify_servos() {
   }
 }
 
-/// A servo may be exchanged for another one while it is identified, or before it is read. Servo IDs
-/// are no evidence: the command itself may change them.
+/// A servo may be exchanged for another one while it is identified, or before it is read. One that
+/// was chosen by its servo ID is known by its unique ID: the command itself may change the former.
 void Discovery::choose(const Targets& targets, std::set<NodeId> chosen) {
-  const bool tells_units = !targets.selectors.empty() &&
-                           std::ranges::none_of(targets.selectors, [](const Selector& selector) {
-                             return selector.key == Selector::Key::servo_id;
-                           });
+  std::set<dronecan::UniqueId> units;
   for (const NodeId id : targets.ids) {
     chosen.erase(id);
   }
-  if (tells_units) {
-    session_.records().choose(std::move(chosen), [selectors = targets.selectors,
-                                                  &profiles = profiles_](const Servo& servo) {
-      return std::ranges::any_of(
-          selectors, [&](const Selector& selector) { return selector.matches(servo, profiles); });
-    });
+  for (const NodeId id : chosen) {
+    if (const auto unit = session_.roster().member(id).unique_id()) {
+      units.insert(*unit);
+    }
   }
+  if (targets.selectors.empty()) {
+    return;
+  }
+  session_.records().choose(std::move(chosen),
+                            [selectors = targets.selectors, units = std::move(units),
+                             &profiles = profiles_](const Servo& servo) {
+                              return std::ranges::any_of(selectors, [&](const Selector& selector) {
+                                return selector.key == Selector::Key::servo_id
+                                           ? !servo.unique_id || units.contains(*servo.unique_id)
+                                           : selector.matches(servo, profiles);
+                              });
+                            });
 }
 
 Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
