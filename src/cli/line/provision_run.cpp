@@ -250,11 +250,8 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
     return stop(record.error());
   }
   const auto& reason = station.reason();
-  tell_event(*record->verdict, &*record, reason ? reason->message : std::string());
-  logs_.keep(*record);
-  view_ ? view_->take(*record, reason, station.is_repeating()) : void();
-  const bool is_printed = view_ || print(*record, reason);
-  account(*record, reason);
+  view_ ? view_->take(*record, reason, station.is_repeating(), station.is_servo_there()) : void();
+  const bool is_printed = conclude(*record, station);
   if (record->verdict != fleet::verdict::error) {
     label_.reset();
     show_label();
@@ -274,9 +271,34 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
   return is_printed && !is_at_end;
 }
 
+/// What is told of every record, beside the screen.
+bool ProvisionRun::conclude(const LedgerRecord& record, const Station& station) {
+  const auto& reason = station.reason();
+  tell_event(*record.verdict, &record, reason ? reason->message : std::string());
+  logs_.keep(record);
+  const bool is_printed = view_ || print(record, reason);
+  account(record, reason);
+  return is_printed;
+}
+
+bool ProvisionRun::refuse_joined(Station& station) {
+  const auto record = station.refuse_joined();
+  if (!record) {
+    return stop(record.error());
+  }
+  view_ ? view_->join(*record, station.reason()) : void();
+  return conclude(*record, station);
+}
+
 bool ProvisionRun::take_off(Station& station) {
   for (;;) {
     const auto left = station.wait_until_off(idle_deadline());
+    if (left && *left == Station::Leaving::joined) {
+      if (!refuse_joined(station)) {
+        return false;
+      }
+      continue;
+    }
     if (left && *left != Station::Leaving::late) {
       return true;
     }
@@ -366,6 +388,8 @@ void ProvisionRun::tell(StationStage stage) {
   case StationStage::working: return context_.reporter().progress(say<texts::provision_works>());
   case StationStage::gone: return context_.reporter().progress(say<texts::provision_gone>());
   case StationStage::ended: return;
+  case StationStage::left: return context_.reporter().progress(say<texts::provision_waits>());
+  case StationStage::other:
   case StationStage::take_off: break;
   }
   context_.reporter().progress(say<texts::provision_take_off>());

@@ -59,6 +59,8 @@ class ProvisionRun : private WritingRun {
   [[nodiscard]] bool wait_for_line(const fleet::Station& station, bool& is_recognised);
   [[nodiscard]] bool wait_for_label(const fleet::Station& station);
   [[nodiscard]] bool work_on(fleet::Station& station, const fleet::Station::Arrival& arrival);
+  [[nodiscard]] bool conclude(const state::LedgerRecord& record, const fleet::Station& station);
+  [[nodiscard]] bool refuse_joined(fleet::Station& station);
   [[nodiscard]] bool take_off(fleet::Station& station);
   [[nodiscard]] bool print(const state::LedgerRecord& record, const std::optional<Error>& reason);
   [[nodiscard]] bool put(std::string_view text);

@@ -72,7 +72,7 @@ Glyph moving_dots(const StationPicture& picture) {
 }
 
 bool is_busy(const StationPicture& picture) {
-  return !picture.last && (picture.deed == LineDeed::leave || picture.deed == LineDeed::hands_off);
+  return picture.deed == LineDeed::leave || picture.deed == LineDeed::hands_off;
 }
 
 /// How what is to be done now is told.
@@ -87,7 +87,7 @@ Sign sign_of(const StationPicture& picture) {
   const auto is = [&](std::string_view verdict) {
     return picture.last && picture.last->verdict == verdict;
   };
-  const bool are_several = picture.last && picture.last->code == name(Code::several_servos);
+  const bool are_several = picture.are_several();
   switch (picture.deed) {
   case LineDeed::connect:
     return {arrow_down, Look::in_block, false,
@@ -242,22 +242,46 @@ void StationPicture::enter(StationStage stage) {
   case StationStage::recognised:
     deed = LineDeed::leave;
     last.reset();
+    joined.reset();
     return;
   case StationStage::working: deed = LineDeed::hands_off; return;
   case StationStage::gone: deed = LineDeed::bring_back; return;
   case StationStage::ended: return; // its record comes
+  case StationStage::left:          // an error needs the full time without a frame
+    deed = are_several() || (last && last->verdict == fleet::verdict::error) ? LineDeed::leave
+                                                                             : LineDeed::connect;
+    return;
+  case StationStage::other:
+    if (joined) {
+      last = std::exchange(joined, std::nullopt);
+      reason = joined_reason;
+    }
+    deed = are_several() ? LineDeed::take_off : LineDeed::leave;
+    return;
   case StationStage::take_off: break;
   }
   deed = is_repeating ? LineDeed::connect : LineDeed::take_off;
 }
 
+bool StationPicture::are_several() const {
+  return joined || (last && last->code == name(Code::several_servos));
+}
+
+void StationPicture::join(const LedgerRecord& record, const std::optional<Error>& why) {
+  totals.add(record);
+  joined = record;
+  joined_reason = why;
+}
+
 void StationPicture::take(const LedgerRecord& record, const std::optional<Error>& why,
-                          bool is_again) {
+                          bool is_again, bool is_occupied) {
   totals.add(record);
   last = record;
   reason = why;
   is_repeating = is_again;
-  enter(StationStage::take_off);
+  deed = !is_again     ? LineDeed::take_off
+         : is_occupied ? LineDeed::leave // it is asked next
+                       : LineDeed::connect;
   if (!record.unique_id) {
     return;
   }
@@ -273,7 +297,7 @@ bool StationPicture::tick() {
 }
 
 int StationPicture::bells() const {
-  return face_of(*this).bells;
+  return joined ? face_of(joined->verdict.value_or("")).bells : face_of(*this).bells;
 }
 
 std::vector<ScreenLine> lines_of(const StationPicture& picture, std::size_t width,

@@ -43,6 +43,8 @@ struct StationPicture {
   LineDeed deed = LineDeed::connect;
   std::optional<state::LedgerRecord> last{}; ///< until the next servo is recognised
   std::optional<Error> reason{};
+  std::optional<state::LedgerRecord> joined{}; ///< of several, while the last result stands
+  std::optional<Error> joined_reason{};
   bool is_repeating = false;      ///< as Station::is_repeating()
   std::string label{};            ///< that counts, or is being typed; shown in place of the note
   std::size_t waiting_labels = 0; ///< that were read ahead
@@ -52,12 +54,19 @@ struct StationPicture {
   std::size_t beat = 0;     ///< of what moves
 
   void enter(fleet::StationStage stage);
-  void take(const state::LedgerRecord& record, const std::optional<Error>& why, bool is_again);
+  void take(const state::LedgerRecord& record, const std::optional<Error>& why, bool is_again,
+            bool is_occupied);
+
+  /// Another one has come beside the last one, whose result stands until it has left.
+  void join(const state::LedgerRecord& record, const std::optional<Error>& why);
 
   /// Called some times a second; returns whether something has moved.
   [[nodiscard]] bool tick();
 
-  /// How often the bell rings for it.
+  /// Whether all that are on the bench have to go.
+  [[nodiscard]] bool are_several() const;
+
+  /// How often the bell rings for the last record.
   [[nodiscard]] int bells() const;
 };
 

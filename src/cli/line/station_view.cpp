@@ -53,8 +53,18 @@ void StationView::stop() {
 }
 
 void StationView::take(const LedgerRecord& record, const std::optional<Error>& reason,
-                       bool is_repeating) {
-  picture_.take(record, reason, is_repeating);
+                       bool is_repeating, bool is_occupied) {
+  picture_.take(record, reason, is_repeating, is_occupied);
+  ring();
+}
+
+void StationView::join(const LedgerRecord& record, const std::optional<Error>& reason) {
+  picture_.join(record, reason);
+  ring();
+}
+
+/// Draws, and begins to ring.
+void StationView::ring() {
   draw();
   bells_ = picture_.bells();
   tick();

@@ -36,9 +36,12 @@ class StationView {
   /// The run ends with the present servo.
   void stop();
 
-  /// `is_repeating`: as that of the station.
+  /// `is_repeating`: as that of the station; `is_occupied`: a servo is on the bench.
   void take(const state::LedgerRecord& record, const std::optional<Error>& reason,
-            bool is_repeating);
+            bool is_repeating, bool is_occupied);
+
+  /// As StationPicture::join().
+  void join(const state::LedgerRecord& record, const std::optional<Error>& reason);
 
   /// Rings what is still to be rung, and moves what moves; called some times a second.
   void tick();
@@ -49,6 +52,8 @@ class StationView {
   [[nodiscard]] std::string typed();
 
  private:
+  void ring();
+
   std::unique_ptr<Screen> screen_;
   const Reporter& reporter_;
   StationPicture picture_;

@@ -74,6 +74,26 @@ class Station::Succession {
                                           [this](const auto& unit) { return unit.first != unit_; });
   }
 
+  /// Whether the last unit was heard since then, and may not be another one in its place.
+  [[nodiscard]] bool has_last(Time since) const {
+    return std::ranges::any_of(session_.roster().members(), [&](const auto& entry) {
+      const auto& [id, member] = entry;
+      const auto asked = asked_.find(id);
+      return unit_ && member.is_unit(*unit_) && member.last_heard > since &&
+             !session_.roster().is_doubled(id) &&
+             (asked == asked_.end() || member.info_at >= asked->second);
+    });
+  }
+
+  /// Whether it is there now, by its periods.
+  [[nodiscard]] bool has_last() const {
+    const bool sends_actuator_status =
+        std::ranges::any_of(session_.roster().members(), [&](const auto& entry) {
+          return unit_ && entry.second.is_unit(*unit_) && entry.second.sends_actuator_status();
+        });
+    return has_last(session_.now() - (sends_actuator_status ? away_time : bus_watch_time));
+  }
+
   ~Succession() {
     for (UnitJob& job : jobs_) {
       session_.cancel(job);
@@ -157,6 +177,10 @@ bool Station::is_other_asking() const {
   });
 }
 
+bool Station::is_any_doubled(const std::vector<NodeId>& ids) const {
+  return std::ranges::any_of(ids, [this](NodeId id) { return session_.roster().is_doubled(id); });
+}
+
 bool Station::is_servo_there() const {
   return is_asked() || !servos_there().empty();
 }
@@ -189,6 +213,16 @@ void Station::go_to(StationStage stage) {
 void Station::watch_absence() {
   watch_ = std::make_unique<AbsenceWatch>(
       session_, [this](bool is_away) { entered_(is_away ? StationStage::gone : stage_); });
+}
+
+/// While the last one is waited for to be taken off.
+void Station::show_bench(bool is_last_there, bool is_occupied) {
+  const auto stage = is_last_there ? StationStage::take_off
+                     : is_occupied ? StationStage::other
+                                   : StationStage::left;
+  if (stage != stage_) {
+    go_to(stage);
+  }
 }
 
 Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
@@ -249,7 +283,7 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
   watch_.reset();
   go_to(StationStage::take_off);
   Succession succession(session_, options_.manner.identification.patience, last_);
-  Time heard = session_.now();
+  Time heard = session_.now(), others_since = never;
   while (session_.now() - heard < off_time) {
     if (session_.now() >= deadline) {
       return Leaving::late;
@@ -261,15 +295,23 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
     const bool is_there = !servos.empty() || is_asked(last_.end);
     heard = is_there || session_.away() ? session_.now() : heard;
     const bool has_lent = succession.has_lent_to_another();
-    const bool is_next = last_.is_to_be_repeated
-                             ? is_there
-                             : succession.has_begun(servos) || is_other_asking() || has_lent;
+    const bool is_other = succession.has_begun(servos) || is_other_asking() || has_lent;
+    others_since = is_other ? std::min(others_since, session_.now()) : never;
+    const bool is_last_there = last_.unit ? succession.has_last() : is_there && !is_other;
+    if (is_other && !last_.are_several && !last_.is_to_be_repeated &&
+        (succession.has_last(others_since) || is_any_doubled(servos))) {
+      return Leaving::joined;
+    }
+    const bool is_next = last_.is_to_be_repeated ? is_there : is_other && !is_last_there;
     if (is_next && !last_.are_several) {
       go_to(StationStage::recognised);
       const auto came = has_lent ? session_.live_until(session_.now() + longest_answer,
                                                        [this] { return is_servo_there(); })
                                  : Result<bool>(true);
       return came ? Result<Leaving>(Leaving::replaced) : std::unexpected(came.error());
+    }
+    if (!last_.is_to_be_repeated && !session_.away()) {
+      show_bench(is_last_there || (is_there && last_.are_several && !last_.unit), is_there);
     }
     if (!last_.are_several && is_asked(last_.end)) {
       if (const auto lent = succession.lend(beside_bench()); !lent) { // to tell who it is

@@ -148,7 +148,7 @@ TEST_CASE("a unit that was spoilt is shown by sign and number until it was finis
   StationPicture picture;
   auto spoilt = record("error", "a");
   spoilt.code = "not_back";
-  picture.take(spoilt, pulled, true);
+  picture.take(spoilt, pulled, true, false);
   const auto sees = [&](bool is_big) {
     const auto lines = lines_of(picture, width, height);
     REQUIRE(lines.size() == height);
@@ -161,14 +161,14 @@ TEST_CASE("a unit that was spoilt is shown by sign and number until it was finis
   picture.enter(fleet::StationStage::waiting); // and has gone
   CHECK(sees(true));
   picture.enter(fleet::StationStage::working);
-  picture.take(record("pass", "b"), std::nullopt, false);
+  picture.take(record("pass", "b"), std::nullopt, false, false);
   CHECK(sees(is_large));
   CHECK(cells(lines_of(picture, width, height), Look::good_block) > 4 * width);
   picture.enter(fleet::StationStage::recognised);
-  picture.take(record("pass", "a"), std::nullopt, false);
+  picture.take(record("pass", "a"), std::nullopt, false, false);
   CHECK(cells(lines_of(picture, width, height), Look::warning_block) == 0);
   for (const auto* unit : {"c", "d", "e", "f"}) { // more than have room
-    picture.take(record("error", unit), pulled, true);
+    picture.take(record("error", unit), pulled, true, false);
   }
   for (const ScreenLine& line : lines_of(picture, width, height)) {
     CHECK(display_width(text_of(line)) <= width);
@@ -199,6 +199,70 @@ TEST_CASE("a servo that has gone too early is told by signs, also one that was n
   CHECK_FALSE(is_told());
 }
 
+TEST_CASE("a result stands while its unit is there, and over no other one") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  StationPicture picture;
+  const auto filled = [&](Look look) {
+    return cells(lines_of(picture, width, height), look) > width * 5;
+  };
+  const auto says = [&](const char* text) {
+    return has(text_of(lines_of(picture, width, height)), text);
+  };
+  picture.take(record("pass"), std::nullopt, false, true);
+  CHECK(filled(Look::good_block));
+  auto several = record("error");
+  several.unique_id.reset();
+  several.serial_number.reset();
+  several.code = "several_servos";
+  picture.join(several, Error{Code::several_servos, "two"});
+  CHECK(picture.bells() == 2);
+  CHECK(filled(Look::good_block));
+  CHECK(says("TAKE ALL OFF"));
+  SECTION("the finished one is taken off first") {
+    picture.enter(fleet::StationStage::other);
+    CHECK(cells(lines_of(picture, width, height), Look::good_block) == 0);
+    CHECK(filled(Look::warning_block));
+    CHECK(says("TAKE ALL OFF"));
+    CHECK_FALSE(says("240900558"));
+  }
+  SECTION("both are taken off") {
+    picture.enter(fleet::StationStage::left);
+    CHECK_FALSE(filled(Look::good_block));
+    CHECK(says("240900558"));
+    CHECK(cells(lines_of(picture, width, height), Look::in_block) == 0); // not yet
+    CHECK(cells(lines_of(picture, width, height), Look::out_block) == 0);
+    picture.enter(fleet::StationStage::waiting);
+    CHECK(says("CONNECT ONE SERVO"));
+  }
+  picture.enter(fleet::StationStage::recognised);
+  CHECK_FALSE(picture.are_several());
+}
+
+TEST_CASE("what is to be done follows what lies on the bench") {
+  StationPicture picture;
+  const auto has_sign = [&](Look look) { return cells(lines_of(picture, 53, 16), look) > 100; };
+  picture.take(record("pass"), std::nullopt, false, true);
+  CHECK(has_sign(Look::out_block));
+  picture.enter(fleet::StationStage::left);
+  CHECK(has_sign(Look::in_block));
+  CHECK_FALSE(has_sign(Look::out_block));
+  CHECK(cells(lines_of(picture, 53, 16), Look::good_block) > 20); // written
+  CHECK(cells(lines_of(picture, 53, 16), Look::good_block) < 150);
+  picture.enter(fleet::StationStage::other); // it, or another one
+  CHECK(cells(lines_of(picture, 53, 16), Look::good_block) < 150);
+  CHECK_FALSE(has_sign(Look::in_block));
+  CHECK_FALSE(has_sign(Look::out_block));
+  picture.enter(fleet::StationStage::take_off);
+  CHECK(has_sign(Look::out_block));
+  CHECK(has_sign(Look::good_block));
+  const Error pulled{Code::not_back, "it was taken off too early"};
+  picture.take(record("error"), pulled, true, false);
+  CHECK(has_sign(Look::in_block));
+  picture.take(record("error"), pulled, true, true); // another one is there already
+  CHECK_FALSE(has_sign(Look::in_block));
+}
+
 TEST_CASE("a run that was stopped says so by a sign while it brings its servo to the end") {
   for (const auto stage : {fleet::StationStage::working, fleet::StationStage::recognised}) {
     StationPicture picture;
@@ -227,7 +291,8 @@ TEST_CASE("labels that were scanned ahead are counted, and of swapped ones both 
   swapped.parameter = "serial_number";
   swapped.expected = 240900559;
   swapped.actual = swapped.serial_number;
-  picture.take(swapped, Error{Code::label_mismatch, "its serial number is another one"}, false);
+  picture.take(swapped, Error{Code::label_mismatch, "its serial number is another one"}, false,
+               false);
   CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
   picture.owed.push_back({"b", "104"});
   CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
@@ -253,7 +318,7 @@ TEST_CASE("a unit that restarts for ever has to be taken off, not connected agai
   for (const bool is_repeating : {true, false}) {
     auto spoilt = record("error");
     spoilt.code = "not_back";
-    picture.take(spoilt, Error{Code::not_back, "it was taken off too early"}, is_repeating);
+    picture.take(spoilt, Error{Code::not_back, "it was taken off too early"}, is_repeating, false);
     const auto lines = lines_of(picture, 80, 24);
     CHECK((cells(lines, Look::in_block) > 0) == is_repeating);
     CHECK((cells(lines, Look::out_block) > 0) != is_repeating);

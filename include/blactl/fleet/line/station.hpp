@@ -34,6 +34,8 @@ enum class StationStage : std::uint8_t {
   gone,       ///< it fell silent before its end; the stage before follows if it is heard again
   ended,      ///< its record is in the ledger
   take_off,   ///< it is waited for that no servo is on the bus
+  left,       ///< the finished one is not heard any more, nor another one
+  other,      ///< it is not heard any more, but something else is: another one, or it restarts
 };
 [[nodiscard]] std::string_view name(StationStage stage);
 
@@ -56,6 +58,7 @@ class Station {
   enum class Leaving : std::uint8_t {
     gone,     ///< no servo has been heard for 3 s
     replaced, ///< another unit is there, or the same one that has still to be done
+    joined,   ///< another unit is there beside the last one: refuse_joined() comes next
     late,     ///< the deadline came first
   };
 
@@ -100,6 +103,9 @@ class Station {
   /// error it may be called again. Errors: those that end a session.
   [[nodiscard]] Result<Leaving> wait_until_off(Time deadline);
 
+  /// The record that several servos are there; all have to be taken off. Errors: as work_on().
+  [[nodiscard]] Result<state::LedgerRecord> refuse_joined();
+
  private:
   struct Past;
   class Succession;
@@ -125,8 +131,10 @@ class Station {
 
   void go_to(StationStage stage);
   void watch_absence();
+  void show_bench(bool is_last_there, bool is_occupied);
   [[nodiscard]] bool is_asked(Time since = Time::min()) const;
   [[nodiscard]] bool is_other_asking() const;
+  [[nodiscard]] bool is_any_doubled(const std::vector<dronecan::NodeId>& ids) const;
   void remember(const state::LedgerRecord& record);
   [[nodiscard]] std::vector<dronecan::NodeId> servos_there() const;
   [[nodiscard]] state::NodeIds beside_bench() const;
