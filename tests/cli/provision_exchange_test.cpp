@@ -245,6 +245,11 @@ TEST_CASE("a unit that is pulled early is told at once, whatever was done to it"
   const auto gone = times_of("gone", events);
   REQUIRE(gone.size() == 1);
   CHECK(gone[0] - begin > to);
+  for (const auto& line : json_lines(content(events))) {
+    if (line["event"] == "gone" && to > 4) { // by then it has told
+      CHECK(line["serial_number"] == 101);
+    }
+  }
   CHECK(gone[0] - begin < to + (node_id == 0 && to < 3 ? 2.1 : delay));
 }
 

@@ -66,7 +66,10 @@ def stopped(blactl):
         terminal.wait_for(lambda _: "\x1b[33m" in terminal.tmux("capture-pane", "-e", "-p"),
                           "no sign")
         terminal.shows("DO NOT TAKE IT OFF")
-        terminal.shows("error 1 skip 0")
+        lines = terminal.shows("error 1 skip 0")
+        text = "\n".join(lines)
+        require("must come back: 101" in text, "nobody knows what is owed", lines)
+        require("ERROR" in text, "the last result is not on the terminal", lines)
 
 
 def labels(blactl):

@@ -72,7 +72,7 @@ class ProvisionRun : private WritingRun {
   [[nodiscard]] bool open_events();
   void open_screen();
   void open_labels();
-  void tell(fleet::StationStage stage);
+  void tell(fleet::StationStage stage, std::optional<std::int64_t> serial_number = {});
   void tell_event(std::string_view event, const state::LedgerRecord* record,
                   const std::string& message = {}) const;
   [[nodiscard]] Time idle_deadline() const;
@@ -88,6 +88,7 @@ class ProvisionRun : private WritingRun {
   std::unique_ptr<EventFile> events_; ///< null: none
   std::unique_ptr<StationView> view_; ///< null: lines
   LineTotals totals_{};
+  std::string last_line_{};         ///< of the last record, with its end
   std::uint64_t counted_ = 0;       ///< for --count
   std::uint64_t failed_in_row_ = 0; ///< for --stop-after
 };

@@ -22,8 +22,8 @@ StationView::~StationView() {
   }
 }
 
-void StationView::enter(StationStage stage) {
-  picture_.enter(stage);
+void StationView::enter(StationStage stage, std::optional<std::int64_t> serial_number) {
+  picture_.enter(stage, serial_number);
   if (stage == StationStage::recognised) {
     told_ = held_.size(); // notes about the one before are over
   }

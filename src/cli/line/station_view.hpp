@@ -10,6 +10,7 @@
 #include "cli/output/screen.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,7 +25,8 @@ class StationView {
   StationView(const StationView&) = delete;
   StationView& operator=(const StationView&) = delete;
 
-  void enter(fleet::StationStage stage);
+  /// As StationPicture::enter().
+  void enter(fleet::StationStage stage, std::optional<std::int64_t> serial_number);
   void wait_for_label();
 
   /// The one that counts or is being typed, and how many were read ahead.

@@ -71,6 +71,7 @@ inline constexpr Text station_title{"station {}   recipe {}", "ステーショ�
 inline constexpr Text station_label{"label {}", "ラベル {}"};
 inline constexpr Text station_totals{"pass {} fail {} error {} skip {}",
                                      "合格 {} 不合格 {} 再試行 {} 処理済 {}"};
+inline constexpr Text station_owed{"must come back: {}", "再処理が必要: {}"};
 inline constexpr Text station_yield{"first pass {}%", "直行率 {}%"};
 inline constexpr Text deed_connect{"CONNECT A SERVO", "サーボを接続して下さい"};
 inline constexpr Text deed_connect_again{"CONNECT IT AGAIN", "もう一度接続して下さい"};

@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -206,13 +207,25 @@ Result<void> Station::let_in() {
 
 void Station::go_to(StationStage stage) {
   stage_ = stage;
-  entered_(stage);
+  entered_(stage, std::nullopt);
+}
+
+/// What was heard before the visit is forgotten.
+std::optional<std::int64_t> Station::serial_number() const {
+  std::set<std::int64_t> numbers;
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (const auto number = member.identity.readings().serial_number) {
+      numbers.insert(*number);
+    }
+  }
+  return numbers.size() == 1 ? std::optional(*numbers.begin()) : std::nullopt;
 }
 
 /// From now on the hook is told, too, that the servo has gone, and that it is back.
 void Station::watch_absence() {
-  watch_ = std::make_unique<AbsenceWatch>(
-      session_, [this](bool is_away) { entered_(is_away ? StationStage::gone : stage_); });
+  watch_ = std::make_unique<AbsenceWatch>(session_, [this](bool is_away) {
+    is_away ? entered_(StationStage::gone, serial_number()) : entered_(stage_, std::nullopt);
+  });
 }
 
 /// While the last one is waited for to be taken off.
@@ -297,7 +310,9 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
     const bool has_lent = succession.has_lent_to_another();
     const bool is_other = succession.has_begun(servos) || is_other_asking() || has_lent;
     others_since = is_other ? std::min(others_since, session_.now()) : never;
-    const bool is_last_there = last_.unit ? succession.has_last() : is_there && !is_other;
+    const bool is_last_there =
+        !last_.is_to_be_repeated &&
+        (last_.unit ? succession.has_last() : is_there && (!is_other || last_.are_several));
     if (is_other && !last_.are_several && !last_.is_to_be_repeated &&
         (succession.has_last(others_since) || is_any_doubled(servos))) {
       return Leaving::joined;
@@ -310,8 +325,8 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
                                  : Result<bool>(true);
       return came ? Result<Leaving>(Leaving::replaced) : std::unexpected(came.error());
     }
-    if (!last_.is_to_be_repeated && !session_.away()) {
-      show_bench(is_last_there || (is_there && last_.are_several && !last_.unit), is_there);
+    if (!session_.away()) {
+      show_bench(is_last_there, is_there);
     }
     if (!last_.are_several && is_asked(last_.end)) {
       if (const auto lent = succession.lend(beside_bench()); !lent) { // to tell who it is

@@ -52,7 +52,9 @@ class Station {
     std::function<std::optional<std::string>()> remark{};
   };
 
-  using StageHook = std::function<void(StationStage stage)>;
+  /// `serial_number`: of the servo that is gone, as far as it is known.
+  using StageHook =
+      std::function<void(StationStage stage, std::optional<std::int64_t> serial_number)>;
 
   /// How the wait for the end of a visit ended.
   enum class Leaving : std::uint8_t {
@@ -131,6 +133,7 @@ class Station {
 
   void go_to(StationStage stage);
   void watch_absence();
+  [[nodiscard]] std::optional<std::int64_t> serial_number() const;
   void show_bench(bool is_last_there, bool is_occupied);
   [[nodiscard]] bool is_asked(Time since = Time::min()) const;
   [[nodiscard]] bool is_other_asking() const;
