@@ -49,14 +49,14 @@ void add_row(ScreenLine& line, std::string_view row, std::size_t square, Paint p
 
 namespace {
 
-/// One line of two rows of dots; `lower` may be empty.
+/// One line of two rows of dots; `upper` may be empty.
 void add_halves(ScreenLine& line, std::string_view upper, std::string_view lower, Paint paint) {
   const bool is_ground_lit = paint.ground != Look::plain;
   const Look lit = is_ground_lit ? paint.ground : paint.ink;
   const auto is_lit = [&](std::string_view row, std::size_t i) {
     return (i < row.size() && row[i] == '#') != is_ground_lit;
   };
-  for (std::size_t i = 0; i < upper.size(); ++i) {
+  for (std::size_t i = 0; i < lower.size(); ++i) {
     const bool is_upper = is_lit(upper, i), is_lower = is_lit(lower, i);
     line.push_back({is_upper == is_lower ? " "
                     : is_upper           ? "▄"
@@ -101,10 +101,9 @@ std::vector<ScreenLine> lines_of(const DrawnRow& row, GlyphSize size, std::size_
   for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) {
     ScreenLine line{{std::string(margin, ' '), ground}};
     for (const Drawn& each : row) {
-      const bool has_lower = 2 * i + 1 < glyph_height;
       size == GlyphSize::full ? add_row(line, each.glyph.at(i), square, each.paint)
-                              : add_halves(line, each.glyph.at(2 * i),
-                                           has_lower ? each.glyph.at(2 * i + 1) : "", each.paint);
+                              : add_halves(line, i > 0 ? each.glyph.at(2 * i - 1) : "",
+                                           each.glyph.at(2 * i), each.paint);
     }
     line.push_back({std::string(width - margin - dots * square, ' '), ground});
     lines.push_back(std::move(line));

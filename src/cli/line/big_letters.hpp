@@ -52,7 +52,7 @@ void add_word(DrawnRow& row, std::string_view word, Paint paint);
 
 /// Lines of a terminal that a row takes.
 enum class GlyphSize : std::uint8_t {
-  half = 3, ///< two dots in a cell, one above the other; a gap of half a line below
+  half = 3, ///< two dots in a cell, one above the other; a gap of half a line above
   full = 5  ///< a dot is a line high, and two cells wide where the width suffices
 };
 

@@ -64,6 +64,7 @@ class ProvisionRun : private WritingRun {
   [[nodiscard]] bool take_off(fleet::Station& station);
   [[nodiscard]] bool print(const state::LedgerRecord& record, const std::optional<Error>& reason);
   [[nodiscard]] bool put(std::string_view text);
+  void take_typed(const std::string& typed);
   void show_label();
   void account(const state::LedgerRecord& record, const std::optional<Error>& reason);
   [[nodiscard]] bool is_complete() const;

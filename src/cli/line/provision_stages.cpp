@@ -73,8 +73,10 @@ void ProvisionRun::tell(StationStage stage, std::optional<std::int64_t> serial_n
     known.serial_number = serial_number;
     tell_event(name(stage), &known);
   }
+  const bool has_no_label = lines_ && !label_ && !lines_->is_ready();
   if (view_) {
-    return view_->enter(stage, serial_number);
+    view_->enter(stage, serial_number);
+    return stage == StationStage::left && has_no_label ? view_->wait_for_label() : void();
   }
   switch (stage) {
   case StationStage::waiting: return context_.reporter().progress(say<texts::provision_waits>());
@@ -82,7 +84,9 @@ void ProvisionRun::tell(StationStage stage, std::optional<std::int64_t> serial_n
   case StationStage::working: return context_.reporter().progress(say<texts::provision_works>());
   case StationStage::gone: return context_.reporter().progress(say<texts::provision_gone>());
   case StationStage::ended: return;
-  case StationStage::left: return context_.reporter().progress(say<texts::provision_waits>());
+  case StationStage::left:
+    return context_.reporter().progress(has_no_label ? say<texts::provision_label_waits>()
+                                                     : say<texts::provision_waits>());
   case StationStage::other:
   case StationStage::take_off: break;
   }

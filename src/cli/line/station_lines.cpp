@@ -30,12 +30,13 @@ struct Face {
   Glyph symbol;
   std::string word;
   Look look;
+  bool was_good = false; ///< before: the symbol of a pass stands beside it
 };
 
 Face face_of(const std::string& verdict) {
   return verdict == fleet::verdict::pass   ? Face{ring, "PASS", Look::good_block}
          : verdict == fleet::verdict::fail ? Face{cross, "FAIL", Look::bad_block}
-         : verdict == fleet::verdict::skip ? Face{equal, "SKIP", Look::skip_block}
+         : verdict == fleet::verdict::skip ? Face{equal, "SKIP", Look::skip_block, true}
                                            : Face{exclamation, "ERROR", Look::warning_block};
 }
 
@@ -58,6 +59,8 @@ struct Sign {
   Look look;
   bool is_on_top; ///< something has to go; else below
   const Text& text;
+  std::string between{};              ///< the words: what it is about
+  const Glyph* last_symbol = nullptr; ///< at the right end; null: the same one
 };
 
 Sign sign_of(const StationPicture& picture) {
@@ -71,7 +74,14 @@ Sign sign_of(const StationPicture& picture) {
             are_several                 ? texts::deed_connect_one
             : is(fleet::verdict::error) ? texts::deed_connect_again
                                         : texts::deed_connect};
-  case LineDeed::scan: return {bars, Look::in_block, false, texts::deed_scan};
+  case LineDeed::scan:
+    return picture.bad_label.empty() ? Sign{bars, Look::in_block, false, texts::deed_scan}
+                                     : Sign{bars,
+                                            Look::warning_block,
+                                            false,
+                                            texts::deed_scan_again,
+                                            printable(picture.bad_label),
+                                            &cross};
   case LineDeed::leave: return {moving_dots(picture), Look::block, false, texts::deed_leave};
   case LineDeed::hands_off: return {barrier, Look::block, false, texts::deed_hands_off};
   case LineDeed::bring_back: return {arrow_down, Look::in_block, false, texts::deed_connect_again};
@@ -95,18 +105,20 @@ std::vector<ScreenLine> lines_of(const Sign& sign, std::size_t width, bool is_ta
   std::vector<ScreenLine> lines;
   for (std::size_t row = 0; row < (is_tall ? glyph_height : 2); ++row) {
     const std::size_t of_en = is_tall ? 1 : 0, of_ja = is_tall ? 3 : 1;
-    const std::string_view text = row == of_en   ? sign.text.en
-                                  : row == of_ja ? sign.text.ja
-                                                 : std::string_view();
+    const bool has_room = display_width(sign.between) <= between;
+    const std::string_view text = row == of_en           ? sign.text.en
+                                  : row == of_ja         ? sign.text.ja
+                                  : row == 2 && has_room ? std::string_view(sign.between)
+                                                         : std::string_view();
     ScreenLine line;
-    const auto add_side = [&] {
+    const auto add_side = [&](const Glyph& symbol) {
       add_row(line, ".", 2, paint);
-      add_row(line, sign.symbol.at(row), 2, paint);
+      add_row(line, symbol.at(row), 2, paint);
       add_row(line, ".", 2, paint);
     };
-    has_symbols ? add_side() : void();
+    has_symbols ? add_side(sign.symbol) : void();
     line.push_back(centred(std::string(text), between, sign.look).front());
-    has_symbols ? add_side() : void();
+    has_symbols ? add_side(sign.last_symbol != nullptr ? *sign.last_symbol : sign.symbol) : void();
     lines.push_back(std::move(line));
   }
   return lines;
@@ -181,6 +193,12 @@ DrawnRow row_of(const Face& face, Paint paint) {
   DrawnRow row;
   add_symbol(row, face.symbol, paint);
   add_word(row, face.word, paint);
+  if (face.was_good) {
+    const bool fills = paint.ground != Look::plain;
+    row.push_back({{".", ".", ".", ".", "."}, paint});
+    add_symbol(row, ring,
+               fills ? Paint{Look::good_block, Look::plain} : Paint{Look::plain, Look::good_block});
+  }
   return row;
 }
 
@@ -248,6 +266,10 @@ ScreenLine first_line(const StationPicture& picture, std::size_t width) {
 /// Labels, else the note; and what had no room above.
 ScreenLine last_line(const StationPicture& picture, const std::vector<std::string>& rest) {
   ScreenLine line;
+  if (!picture.bad_label.empty() && picture.deed != LineDeed::scan) {
+    line.push_back({" X  " + printable(picture.bad_label) + "  X ", Look::warning_block});
+    line.push_back({"  ", Look::plain});
+  }
   if (!picture.label.empty() || picture.waiting_labels > 0) {
     const std::string waiting =
         picture.waiting_labels > 0 ? fmt::format("   +{}", picture.waiting_labels) : std::string();

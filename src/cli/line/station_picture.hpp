@@ -43,6 +43,7 @@ struct StationPicture {
   bool is_repeating = false;      ///< as Station::is_repeating()
   std::string label{};            ///< that counts, or is being typed; shown in place of the note
   std::size_t waiting_labels = 0; ///< that were read ahead
+  std::string bad_label{};        ///< the last one, if it was none: it has to be read again
   std::string note{};             ///< the last one
   std::optional<std::int64_t> gone{}; ///< the number of the one that has gone too early
   bool is_stopping = false;           ///< the present servo is the last one

@@ -32,6 +32,9 @@ class StationView {
   /// The one that counts or is being typed, and how many were read ahead.
   void show_label(std::string label, std::size_t waiting);
 
+  /// A line that is no label was read; empty: one that is has followed.
+  void refuse_label(const std::string& line);
+
   /// The bus is not there: its adapter is away, or something else.
   void lose_bus(bool is_away);
 
@@ -54,7 +57,7 @@ class StationView {
   [[nodiscard]] std::string typed();
 
  private:
-  void ring();
+  void ring(int times);
 
   std::unique_ptr<Screen> screen_;
   const Reporter& reporter_;

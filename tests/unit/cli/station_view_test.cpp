@@ -347,6 +347,33 @@ TEST_CASE("labels that were scanned ahead are counted, and of swapped ones both 
   CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
 }
 
+TEST_CASE("a line that is no label has a sign of its own") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  StationPicture picture{.deed = LineDeed::scan, .last = record("pass"), .bad_label = "hello"};
+  CHECK(cells(lines_of(picture, width, height), Look::in_block) == 0);
+  CHECK(cells(lines_of(picture, width, height), Look::warning_block) > 3 * width);
+  CHECK(has(text_of(lines_of(picture, width, height)), "hello"));
+  CHECK(has(text_of(lines_of(picture, width, height)), "SCAN IT AGAIN"));
+  picture.deed = LineDeed::hands_off; // it was read ahead
+  CHECK(cells({lines_of(picture, width, height).back()}, Look::warning_block) > 5);
+  CHECK(has(text_of(lines_of(picture, width, height)), "hello"));
+  picture.bad_label.clear();
+  CHECK(cells(lines_of(picture, width, height), Look::warning_block) == 0);
+}
+
+TEST_CASE("a unit that was finished before has the symbol of a pass beside that of a skip") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  StationPicture picture;
+  picture.take(record("skip"), std::nullopt, false, true);
+  CHECK(cells(lines_of(picture, width, height), Look::skip_block) > 3 * width);
+  CHECK(cells(lines_of(picture, width, height), Look::good_block) > 15);
+  picture.enter(fleet::StationStage::left);
+  CHECK(cells(lines_of(picture, width, height), Look::skip_block) > 20);
+  CHECK(cells(lines_of(picture, width, height), Look::good_block) > 10);
+}
+
 TEST_CASE("while the station is busy something moves") {
   StationPicture picture{.deed = LineDeed::leave};
   for (const auto deed : {LineDeed::leave, LineDeed::hands_off}) {
