@@ -219,7 +219,8 @@ std::vector<ScreenLine> verdict_lines(const StationPicture& picture, std::size_t
   std::vector<ScreenLine> lines;
   if (room >= glyph_height + halves) {
     append(lines, lines_of(row_of(face, paint), GlyphSize::full, width, paint.ground));
-  } else if (room > halves) { // the numbers are more than the word
+  }
+  if (lines.empty() && room > halves) { // the numbers are more than the word
     lines.push_back(centred(face.word, width, paint.ground));
   }
   const bool is_wide = room >= glyph_height + 2 + rows.size() * (glyph_height + 1) + rest.size();

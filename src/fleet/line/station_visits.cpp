@@ -292,6 +292,15 @@ void Station::remember(const state::LedgerRecord& record) {
   }
 }
 
+/// To the next one; `has_asked`: it is not heard under its node ID yet.
+Result<Station::Leaving> Station::give_way(bool has_asked) {
+  go_to(StationStage::recognised);
+  const auto came = has_asked ? session_.live_until(session_.now() + longest_answer,
+                                                    [this] { return is_servo_there(); })
+                              : Result<bool>(true);
+  return came ? Result<Leaving>(Leaving::replaced) : std::unexpected(came.error());
+}
+
 Result<Station::Leaving> Station::wait_until_off(Time deadline) {
   watch_.reset();
   go_to(StationStage::take_off);
@@ -319,11 +328,7 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
     }
     const bool is_next = last_.is_to_be_repeated ? is_there : is_other && !is_last_there;
     if (is_next && !last_.are_several) {
-      go_to(StationStage::recognised);
-      const auto came = has_lent ? session_.live_until(session_.now() + longest_answer,
-                                                       [this] { return is_servo_there(); })
-                                 : Result<bool>(true);
-      return came ? Result<Leaving>(Leaving::replaced) : std::unexpected(came.error());
+      return give_way(has_lent);
     }
     if (!session_.away()) {
       show_bench(is_last_there, is_there);

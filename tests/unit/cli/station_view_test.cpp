@@ -403,6 +403,7 @@ TEST_CASE("a unit that restarts for ever has to be taken off, not connected agai
 
 TEST_CASE("a tiny screen is no reason to fail") {
   const StationPicture picture{.last = record("pass")};
+  CHECK(has(text_of(lines_of(picture, 20, 24)), "PASS"));
   for (std::size_t height : {0U, 1U, 4U, 5U, 6U}) {
     for (std::size_t width : {0U, 1U, 10U}) {
       CHECK(lines_of(picture, width, height).size() >= height);

@@ -138,6 +138,7 @@ class Station {
   [[nodiscard]] bool is_asked(Time since = Time::min()) const;
   [[nodiscard]] bool is_other_asking() const;
   [[nodiscard]] bool is_any_doubled(const std::vector<dronecan::NodeId>& ids) const;
+  [[nodiscard]] Result<Leaving> give_way(bool has_asked);
   void remember(const state::LedgerRecord& record);
   [[nodiscard]] std::vector<dronecan::NodeId> servos_there() const;
   [[nodiscard]] state::NodeIds beside_bench() const;
