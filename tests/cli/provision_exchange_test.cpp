@@ -162,9 +162,51 @@ TEST_CASE("another unit that asks for a node ID beside the last one is told at o
                 {"--count", "2", "--idle-timeout", "90", "--events", events}, {}, dynamic_recipe);
   INFO(run.result.out << run.result.err << content(events));
   CHECK(run.told() == "pass 1 0; error several_servos; pass 2 0");
-  const auto recognised = times_of("recognised", events);
-  REQUIRE(recognised.size() >= 2);
-  CHECK(recognised[1] - recognised[0] < 29 + 0.7);
+  const auto told = times_of("error", events);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0] - times_of("recognised", events).at(0) < 29 + 0.7);
+}
+
+TEST_CASE("a result stands until its unit is off the bench, whatever lies beside it") {
+  const double from = GENERATE(5.0, 6.5, 15.0); // in the work on the other one, after it
+  const int node_id = GENERATE(8, 0);
+  INFO(from << " " << node_id);
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run =
+      provision(line({{.serial = 101, .from = 1, .to = 20, .node_id = 11},
+                      {.serial = 102, .from = from, .to = 30, .node_id = node_id},
+                      {.serial = 102, .from = 40, .to = 60}}),
+                {"--count", "2", "--idle-timeout", "90", "--events", events});
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.told() == "pass 1 11; error several_servos; pass 2 12");
+  const double start = times_of("recognised", events).at(0) - 1; // about
+  CHECK(times_of("recognised", events).size() == 2);
+  REQUIRE(times_of("other", events).size() == 1);
+  CHECK(times_of("other", events)[0] - start > 20 - 0.5);
+  CHECK(times_of("other", events)[0] - start < 20 + 0.8);
+  REQUIRE(times_of("left", events).size() == 1);
+  CHECK(times_of("left", events)[0] - start > 30 - 0.5);
+}
+
+TEST_CASE("an empty bench is told within a second, and a unit that is back has to be taken off") {
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 20, .node_id = 11},
+                                          {.serial = 101, .from = 22, .to = 30},
+                                          {.serial = 102, .from = 31.5, .to = 60}}),
+                                    {"--count", "2", "--idle-timeout", "90", "--events", events});
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.told() == "pass 1 11; pass 2 12");
+  constexpr double begin = 1735689600; // of the simulation
+  const auto left = times_of("left", events);
+  REQUIRE(left.size() == 2);
+  CHECK(left[0] - begin > 20);
+  CHECK(left[0] - begin < 20.8);
+  CHECK(left[1] - begin < 30.8);
+  const auto take_off = times_of("take_off", events);
+  REQUIRE(take_off.size() == 2);
+  CHECK(take_off[1] - begin < 23);
 }
 
 TEST_CASE("a label is that of the unit that took the place of the last one") {
@@ -203,6 +245,11 @@ TEST_CASE("a unit that is pulled early is told at once, whatever was done to it"
   const auto gone = times_of("gone", events);
   REQUIRE(gone.size() == 1);
   CHECK(gone[0] - begin > to);
+  for (const auto& line : json_lines(content(events))) {
+    if (line["event"] == "gone" && to > 4) { // by then it has told
+      CHECK(line["serial_number"] == 101);
+    }
+  }
   CHECK(gone[0] - begin < to + (node_id == 0 && to < 3 ? 2.1 : delay));
 }
 

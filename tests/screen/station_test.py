@@ -66,7 +66,10 @@ def stopped(blactl):
         terminal.wait_for(lambda _: "\x1b[33m" in terminal.tmux("capture-pane", "-e", "-p"),
                           "no sign")
         terminal.shows("DO NOT TAKE IT OFF")
-        terminal.shows("error 1 skip 0")
+        lines = terminal.shows("error 1 skip 0")
+        text = "\n".join(lines)
+        require("must come back: 101" in text, "nobody knows what is owed", lines)
+        require("ERROR" in text, "the last result is not on the terminal", lines)
 
 
 def labels(blactl):
@@ -79,7 +82,10 @@ def labels(blactl):
         terminal.type("BSpace", "1", "Enter")
         lines = terminal.shows("label 101")
         lines = terminal.shows("pass 1")
+        terminal.type("hello", "Enter")  # while the one before is still there
+        terminal.shows("X  hello")
         terminal.type("102", "Enter", "10")
+        terminal.shows_no_more("hello")
         terminal.shows("label 10   +1")
         terminal.type("3", "Enter")
         terminal.shows("+2")
@@ -93,7 +99,23 @@ def labels(blactl):
         terminal.shows("status 0")
 
 
-TESTS = (verdicts, places, stopped, labels)
+def taken_off(blactl):
+    """With labels the next thing to do on an empty bench is a scan; then a servo is to come."""
+    off = [{"at": "12s", "servo": 101, "happens": "power_off"}]
+    with Terminal(blactl, SERVOS, 53, 16, events=off) as terminal:
+        provision(terminal, "--label", "-")
+        terminal.shows("SCAN A LABEL")
+        terminal.type("101", "Enter")
+        terminal.shows("TAKE IT OFF")
+        seen = []
+        terminal.wait_for(lambda lines: seen.append("".join(lines)) or "SCAN" in seen[-1], "no scan")
+        require(not any("CONNECT" in each for each in seen), "a servo was asked for before its label")
+        require("101" in seen[-1], "the last result is gone", seen[-1:])
+        terminal.type("102", "Enter")
+        terminal.shows("CONNECT A SERVO")
+
+
+TESTS = (verdicts, places, stopped, labels, taken_off)
 
 
 if __name__ == "__main__":

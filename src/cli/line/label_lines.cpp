@@ -61,6 +61,23 @@ std::string_view LabelLines::unfinished() const {
   return text.substr(text.rfind('\n') + 1); // npos + 1 is 0
 }
 
+std::string
+LabelLines::take_out_unless(const std::function<bool(const std::string& line)>& is_label) {
+  std::string last, kept;
+  std::string_view rest = text_;
+  for (auto end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
+    const std::string line(rest.substr(0, end));
+    rest.remove_prefix(end + 1);
+    if (is_blank_line(line) || is_label(line)) {
+      kept += line + '\n';
+    } else {
+      last = line;
+    }
+  }
+  text_ = kept.append(rest);
+  return last;
+}
+
 void LabelLines::type(std::string_view text) {
   constexpr char backspace = '\b', end_of_input = '\x04';
   for (const char key : text) {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,10 @@ class LabelLines {
 
   /// How many whole lines that are not blank wait for next().
   [[nodiscard]] std::size_t waiting() const;
+
+  /// Takes out the whole lines that wait and are no labels; returns the last of them, else empty.
+  [[nodiscard]] std::string
+  take_out_unless(const std::function<bool(const std::string& line)>& is_label);
 
   /// Whether a whole line is there, or stdin has ended.
   [[nodiscard]] bool is_ready() const;

@@ -24,12 +24,27 @@ std::string text_of(const LineTotals& totals) {
          (yield ? " " + say<texts::station_yield>(fmt::format("{:.1f}", *yield)) : std::string());
 }
 
+std::string numbers_of(const std::vector<LineTotals::Owed>& owed) {
+  std::string numbers;
+  for (const LineTotals::Owed& each : owed) {
+    numbers += (numbers.empty() ? "" : ", ") + each.number;
+  }
+  return numbers;
+}
+
 void LineTotals::add(const LedgerRecord& record) {
   ++verdicts[record.verdict.value_or("")];
   const bool is_result =
       record.verdict == fleet::verdict::pass || record.verdict == fleet::verdict::fail;
   if (is_result && record.unique_id) {
     first_passed.emplace(*record.unique_id, record.verdict == fleet::verdict::pass);
+  }
+  if (!record.unique_id) {
+    return;
+  }
+  std::erase_if(owed, [&](const Owed& each) { return each.unit == *record.unique_id; });
+  if (record.verdict == fleet::verdict::error && record.serial_number) {
+    owed.push_back({*record.unique_id, std::to_string(*record.serial_number)});
   }
 }
 

@@ -18,11 +18,23 @@ void ProvisionRun::open_labels() {
     context_.session().on_input(Screen::input(), [this] {
       const std::string typed = view_->typed();
       if (lines_) {
-        lines_->type(typed);
-        show_label();
+        take_typed(typed);
       }
     });
   }
+}
+
+/// A bad scan is told at once, also one that was made ahead.
+void ProvisionRun::take_typed(const std::string& typed) {
+  lines_->type(typed);
+  if (typed.find('\n') != std::string::npos) {
+    view_->refuse_label(lines_->take_out_unless([this](const std::string& line) {
+      const auto label = fleet::parse_label(line, lines_->number() + 1, context_.known());
+      label ? void() : context_.reporter().error(label.error());
+      return label.has_value();
+    }));
+  }
+  show_label();
 }
 
 /// The one that counts, else what was typed so far; and that more were typed ahead.
@@ -82,8 +94,10 @@ bool ProvisionRun::wait_for_label(const fleet::Station& station) {
     auto label = fleet::parse_label(*line, lines_->number(), context_.known());
     if (label) {
       label_ = std::move(*label);
+      view_ ? view_->refuse_label({}) : void();
       show_label();
     } else {
+      view_ ? view_->refuse_label(*line) : void();
       context_.reporter().error(label.error());
       ask_for_label();
     }

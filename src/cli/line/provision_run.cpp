@@ -132,7 +132,7 @@ bool ProvisionRun::begin() {
 
 void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counters) {
   Station station(context_.session(), context_.known(), ledger, counters, station_options(),
-                  [this](StationStage stage) { tell(stage); });
+                  [this](StationStage stage, auto serial_number) { tell(stage, serial_number); });
   const auto killed = station.end_interrupted();
   if (!killed) {
     stop(killed.error());
@@ -157,8 +157,14 @@ void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counte
   lines_.reset();
   context_.session().on_input(-1, {});
   context_.session().on_resize({});
-  view_.reset();
+  const bool had_screen = std::exchange(view_, nullptr) != nullptr;
+  if (had_screen && !last_line_.empty()) { // it was seen on the screen alone
+    (void)put(last_line_);
+  }
   if (context_.reporter().format() == Format::text) {
+    !totals_.owed.empty()
+        ? context_.reporter().note(say<texts::station_owed>(numbers_of(totals_.owed)))
+        : void();
     context_.reporter().note(text_of(totals_));
   }
 }
@@ -175,57 +181,6 @@ bool ProvisionRun::be_the_station() {
   }
   station_ = std::move(*lock);
   return true;
-}
-
-/// Before the bus: a lamp that shows nothing is worse than no work.
-bool ProvisionRun::open_events() {
-  if (options_.events.empty()) {
-    return true;
-  }
-  auto file = EventFile::open(options_.events);
-  if (!file) {
-    return stop(file.error());
-  }
-  events_ = std::move(*file);
-  return true;
-}
-
-/// "waiting", "pass": for a lamp or a controller.
-void ProvisionRun::tell_event(std::string_view event, const LedgerRecord* record,
-                              const std::string& message) const {
-  if (!events_) {
-    return;
-  }
-  const LedgerRecord none;
-  const LedgerRecord& told = record != nullptr ? *record : none;
-  std::string line;
-  JsonWriter json(line);
-  json.begin_object();
-  json.key("time");
-  json.number(UnixTime(context_.session().wall()).text());
-  json.member("event", event);
-  json.member("code", told.code);
-  json.member("serial_number", told.serial_number);
-  json.member("record_id", told.record_id);
-  json.member("message", message.empty() ? std::optional<std::string>() : std::optional(message));
-  json.end_object();
-  events_->tell(std::move(line));
-}
-
-/// Without a terminal that can be drawn on, lines tell all.
-void ProvisionRun::open_screen() {
-  const Reporter& reporter = context_.reporter();
-  if (reporter.format() != Format::text || !reporter.has_screen()) {
-    return;
-  }
-  auto screen = Screen::open(reporter.page().colour);
-  if (!screen) {
-    return reporter.note(screen.error().message);
-  }
-  view_ = std::make_unique<StationView>(
-      std::move(*screen), reporter,
-      say<texts::station_title>(printable(*common_.station), printable(recipe_.name)));
-  context_.session().on_resize([this] { view_->draw(); });
 }
 
 /// Whether the run goes on.
@@ -250,11 +205,8 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
     return stop(record.error());
   }
   const auto& reason = station.reason();
-  tell_event(*record->verdict, &*record, reason ? reason->message : std::string());
-  logs_.keep(*record);
-  view_ ? view_->take(*record, reason, station.is_repeating()) : void();
-  const bool is_printed = view_ || print(*record, reason);
-  account(*record, reason);
+  view_ ? view_->take(*record, reason, station.is_repeating(), station.is_servo_there()) : void();
+  const bool is_printed = conclude(*record, station);
   if (record->verdict != fleet::verdict::error) {
     label_.reset();
     show_label();
@@ -274,9 +226,36 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
   return is_printed && !is_at_end;
 }
 
+/// What is told of every record, beside the screen.
+bool ProvisionRun::conclude(const LedgerRecord& record, const Station& station) {
+  const auto& reason = station.reason();
+  tell_event(*record.verdict, &record, reason ? reason->message : std::string());
+  logs_.keep(record);
+  const Reporter& reporter = context_.reporter();
+  last_line_ = record_line(record, reporter.format(), reporter.page(), reason);
+  const bool is_printed = view_ || put(last_line_);
+  account(record, reason);
+  return is_printed;
+}
+
+bool ProvisionRun::refuse_joined(Station& station) {
+  const auto record = station.refuse_joined();
+  if (!record) {
+    return stop(record.error());
+  }
+  view_ ? view_->join(*record, station.reason()) : void();
+  return conclude(*record, station);
+}
+
 bool ProvisionRun::take_off(Station& station) {
   for (;;) {
     const auto left = station.wait_until_off(idle_deadline());
+    if (left && *left == Station::Leaving::joined) {
+      if (!refuse_joined(station)) {
+        return false;
+      }
+      continue;
+    }
     if (left && *left != Station::Leaving::late) {
       return true;
     }
@@ -348,27 +327,6 @@ void ProvisionRun::end_by_idling() {
     stop({Code::not_found, say<texts::provision_idle>(whole_seconds(*options_.idle_timeout)),
           say<texts::provision_idle_hint>(counted_, *options_.count), std::nullopt});
   }
-}
-
-void ProvisionRun::tell(StationStage stage) {
-  if (stage == StationStage::waiting) {
-    logs_.begin();
-  }
-  if (stage != StationStage::ended) { // its verdict is told
-    tell_event(name(stage), nullptr);
-  }
-  if (view_) {
-    return view_->enter(stage);
-  }
-  switch (stage) {
-  case StationStage::waiting: return context_.reporter().progress(say<texts::provision_waits>());
-  case StationStage::recognised: return context_.reporter().progress(say<texts::provision_asks>());
-  case StationStage::working: return context_.reporter().progress(say<texts::provision_works>());
-  case StationStage::gone: return context_.reporter().progress(say<texts::provision_gone>());
-  case StationStage::ended: return;
-  case StationStage::take_off: break;
-  }
-  context_.reporter().progress(say<texts::provision_take_off>());
 }
 
 } // namespace blactl::cli

@@ -59,9 +59,12 @@ class ProvisionRun : private WritingRun {
   [[nodiscard]] bool wait_for_line(const fleet::Station& station, bool& is_recognised);
   [[nodiscard]] bool wait_for_label(const fleet::Station& station);
   [[nodiscard]] bool work_on(fleet::Station& station, const fleet::Station::Arrival& arrival);
+  [[nodiscard]] bool conclude(const state::LedgerRecord& record, const fleet::Station& station);
+  [[nodiscard]] bool refuse_joined(fleet::Station& station);
   [[nodiscard]] bool take_off(fleet::Station& station);
   [[nodiscard]] bool print(const state::LedgerRecord& record, const std::optional<Error>& reason);
   [[nodiscard]] bool put(std::string_view text);
+  void take_typed(const std::string& typed);
   void show_label();
   void account(const state::LedgerRecord& record, const std::optional<Error>& reason);
   [[nodiscard]] bool is_complete() const;
@@ -70,7 +73,7 @@ class ProvisionRun : private WritingRun {
   [[nodiscard]] bool open_events();
   void open_screen();
   void open_labels();
-  void tell(fleet::StationStage stage);
+  void tell(fleet::StationStage stage, std::optional<std::int64_t> serial_number = {});
   void tell_event(std::string_view event, const state::LedgerRecord* record,
                   const std::string& message = {}) const;
   [[nodiscard]] Time idle_deadline() const;
@@ -86,6 +89,7 @@ class ProvisionRun : private WritingRun {
   std::unique_ptr<EventFile> events_; ///< null: none
   std::unique_ptr<StationView> view_; ///< null: lines
   LineTotals totals_{};
+  std::string last_line_{};         ///< of the last record, with its end
   std::uint64_t counted_ = 0;       ///< for --count
   std::uint64_t failed_in_row_ = 0; ///< for --stop-after
 };

@@ -33,31 +33,40 @@ enum class LineDeed : std::uint8_t {
 
 /// What is to be seen; its methods tell what has happened.
 struct StationPicture {
-  /// A unit whose last record is an error: it has to come back.
-  struct Owed {
-    std::string unit, number; ///< unique ID, serial number
-  };
-
   std::string title{};
   LineTotals totals{};
   LineDeed deed = LineDeed::connect;
   std::optional<state::LedgerRecord> last{}; ///< until the next servo is recognised
   std::optional<Error> reason{};
+  std::optional<state::LedgerRecord> joined{}; ///< of several, while the last result stands
+  std::optional<Error> joined_reason{};
   bool is_repeating = false;      ///< as Station::is_repeating()
   std::string label{};            ///< that counts, or is being typed; shown in place of the note
   std::size_t waiting_labels = 0; ///< that were read ahead
+  std::string bad_label{};        ///< the last one, if it was none: it has to be read again
   std::string note{};             ///< the last one
-  std::vector<Owed> owed{};
-  bool is_stopping = false; ///< the present servo is the last one
-  std::size_t beat = 0;     ///< of what moves
+  std::optional<std::int64_t> gone{}; ///< the number of the one that has gone too early
+  bool is_stopping = false;           ///< the present servo is the last one
+  std::size_t beat = 0;               ///< of what moves
 
-  void enter(fleet::StationStage stage);
-  void take(const state::LedgerRecord& record, const std::optional<Error>& why, bool is_again);
+  /// `serial_number`: as Station::StageHook.
+  void enter(fleet::StationStage stage, std::optional<std::int64_t> serial_number = {});
+  void take(const state::LedgerRecord& record, const std::optional<Error>& why, bool is_again,
+            bool is_occupied);
+
+  /// Another one has come beside the last one, whose result stands until it has left.
+  void join(const state::LedgerRecord& record, const std::optional<Error>& why);
+
+  /// Whether it goes on without the operator.
+  [[nodiscard]] bool is_busy() const;
 
   /// Called some times a second; returns whether something has moved.
   [[nodiscard]] bool tick();
 
-  /// How often the bell rings for it.
+  /// Whether all that are on the bench have to go.
+  [[nodiscard]] bool are_several() const;
+
+  /// How often the bell rings for the last record.
   [[nodiscard]] int bells() const;
 };
 

@@ -22,8 +22,8 @@ StationView::~StationView() {
   }
 }
 
-void StationView::enter(StationStage stage) {
-  picture_.enter(stage);
+void StationView::enter(StationStage stage, std::optional<std::int64_t> serial_number) {
+  picture_.enter(stage, serial_number);
   if (stage == StationStage::recognised) {
     told_ = held_.size(); // notes about the one before are over
   }
@@ -38,7 +38,15 @@ void StationView::wait_for_label() {
 void StationView::show_label(std::string label, std::size_t waiting) {
   picture_.label = std::move(label);
   picture_.waiting_labels = waiting;
+  if (waiting > 0 && picture_.deed == LineDeed::scan) {
+    picture_.deed = LineDeed::connect;
+  }
   draw();
+}
+
+void StationView::refuse_label(const std::string& line) {
+  picture_.bad_label = line;
+  ring(line.empty() ? 0 : 2);
 }
 
 void StationView::lose_bus(bool is_away) {
@@ -53,10 +61,20 @@ void StationView::stop() {
 }
 
 void StationView::take(const LedgerRecord& record, const std::optional<Error>& reason,
-                       bool is_repeating) {
-  picture_.take(record, reason, is_repeating);
+                       bool is_repeating, bool is_occupied) {
+  picture_.take(record, reason, is_repeating, is_occupied);
+  ring(picture_.bells());
+}
+
+void StationView::join(const LedgerRecord& record, const std::optional<Error>& reason) {
+  picture_.join(record, reason);
+  ring(picture_.bells());
+}
+
+/// Draws, and begins to ring.
+void StationView::ring(int times) {
   draw();
-  bells_ = picture_.bells();
+  bells_ = times;
   tick();
 }
 

@@ -10,6 +10,7 @@
 #include "cli/output/screen.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,11 +25,15 @@ class StationView {
   StationView(const StationView&) = delete;
   StationView& operator=(const StationView&) = delete;
 
-  void enter(fleet::StationStage stage);
+  /// As StationPicture::enter().
+  void enter(fleet::StationStage stage, std::optional<std::int64_t> serial_number);
   void wait_for_label();
 
   /// The one that counts or is being typed, and how many were read ahead.
   void show_label(std::string label, std::size_t waiting);
+
+  /// A line that is no label was read; empty: one that is has followed.
+  void refuse_label(const std::string& line);
 
   /// The bus is not there: its adapter is away, or something else.
   void lose_bus(bool is_away);
@@ -36,9 +41,12 @@ class StationView {
   /// The run ends with the present servo.
   void stop();
 
-  /// `is_repeating`: as that of the station.
+  /// `is_repeating`: as that of the station; `is_occupied`: a servo is on the bench.
   void take(const state::LedgerRecord& record, const std::optional<Error>& reason,
-            bool is_repeating);
+            bool is_repeating, bool is_occupied);
+
+  /// As StationPicture::join().
+  void join(const state::LedgerRecord& record, const std::optional<Error>& reason);
 
   /// Rings what is still to be rung, and moves what moves; called some times a second.
   void tick();
@@ -49,6 +57,8 @@ class StationView {
   [[nodiscard]] std::string typed();
 
  private:
+  void ring(int times);
+
   std::unique_ptr<Screen> screen_;
   const Reporter& reporter_;
   StationPicture picture_;

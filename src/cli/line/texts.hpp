@@ -71,6 +71,7 @@ inline constexpr Text station_title{"station {}   recipe {}", "ステーショ�
 inline constexpr Text station_label{"label {}", "ラベル {}"};
 inline constexpr Text station_totals{"pass {} fail {} error {} skip {}",
                                      "合格 {} 不合格 {} 再試行 {} 処理済 {}"};
+inline constexpr Text station_owed{"must come back: {}", "再処理が必要: {}"};
 inline constexpr Text station_yield{"first pass {}%", "直行率 {}%"};
 inline constexpr Text deed_connect{"CONNECT A SERVO", "サーボを接続して下さい"};
 inline constexpr Text deed_connect_again{"CONNECT IT AGAIN", "もう一度接続して下さい"};
@@ -78,6 +79,7 @@ inline constexpr Text deed_connect_one{"CONNECT ONE SERVO", "1 台だけ接続�
 inline constexpr Text deed_plug_in{"PLUG IN THE ADAPTER", "アダプターを接続して下さい"};
 inline constexpr Text deed_mend{"CHECK THE CABLE", "ケーブルと電源を確認して下さい"};
 inline constexpr Text deed_scan{"SCAN A LABEL", "ラベルを読み取って下さい"};
+inline constexpr Text deed_scan_again{"SCAN IT AGAIN", "もう一度読み取って下さい"};
 inline constexpr Text deed_leave{"WAIT", "そのままお待ち下さい"};
 inline constexpr Text deed_hands_off{"DO NOT TAKE IT OFF", "外さないで下さい"};
 inline constexpr Text deed_take_off{"TAKE IT OFF", "外して下さい"};

@@ -84,6 +84,8 @@ std::string_view name(StationStage stage) {
   case StationStage::working: return "working";
   case StationStage::gone: return "gone";
   case StationStage::ended: return "ended";
+  case StationStage::left: return "left";
+  case StationStage::other: return "other";
   case StationStage::take_off: break;
   }
   return "take_off";
@@ -233,6 +235,17 @@ Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label
               : number_and_configure(servo, label, record);
   const std::string_view verdict = wrong ? verdict_of(wrong->code) : verdict::pass;
   return commit(std::move(record), arrival.at, verdict, std::move(wrong));
+}
+
+Result<LedgerRecord> Station::refuse_joined() {
+  LedgerRecord record = begun_record(options_.common, session_.wall());
+  const auto servos = servos_there();
+  record.node_id = servos.empty() || is_asked(last_.end) ? 0 : servos.front().value();
+  Visit before = last_;
+  auto committed = commit(std::move(record), session_.now(), verdict::error, several({}));
+  last_.unit = before.unit; // its result stands as long as it is there
+  last_.nodes = std::move(before.nodes);
+  return committed;
 }
 
 std::optional<Error> Station::number_and_configure(const Servo& servo, const Label* label,

@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -72,6 +73,26 @@ class Station::Succession {
   [[nodiscard]] bool has_lent_to_another() const {
     return lender_ && std::ranges::any_of(lender_->units(),
                                           [this](const auto& unit) { return unit.first != unit_; });
+  }
+
+  /// Whether the last unit was heard since then, and may not be another one in its place.
+  [[nodiscard]] bool has_last(Time since) const {
+    return std::ranges::any_of(session_.roster().members(), [&](const auto& entry) {
+      const auto& [id, member] = entry;
+      const auto asked = asked_.find(id);
+      return unit_ && member.is_unit(*unit_) && member.last_heard > since &&
+             !session_.roster().is_doubled(id) &&
+             (asked == asked_.end() || member.info_at >= asked->second);
+    });
+  }
+
+  /// Whether it is there now, by its periods.
+  [[nodiscard]] bool has_last() const {
+    const bool sends_actuator_status =
+        std::ranges::any_of(session_.roster().members(), [&](const auto& entry) {
+          return unit_ && entry.second.is_unit(*unit_) && entry.second.sends_actuator_status();
+        });
+    return has_last(session_.now() - (sends_actuator_status ? away_time : bus_watch_time));
   }
 
   ~Succession() {
@@ -157,6 +178,10 @@ bool Station::is_other_asking() const {
   });
 }
 
+bool Station::is_any_doubled(const std::vector<NodeId>& ids) const {
+  return std::ranges::any_of(ids, [this](NodeId id) { return session_.roster().is_doubled(id); });
+}
+
 bool Station::is_servo_there() const {
   return is_asked() || !servos_there().empty();
 }
@@ -182,13 +207,35 @@ Result<void> Station::let_in() {
 
 void Station::go_to(StationStage stage) {
   stage_ = stage;
-  entered_(stage);
+  entered_(stage, std::nullopt);
+}
+
+/// What was heard before the visit is forgotten.
+std::optional<std::int64_t> Station::serial_number() const {
+  std::set<std::int64_t> numbers;
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (const auto number = member.identity.readings().serial_number) {
+      numbers.insert(*number);
+    }
+  }
+  return numbers.size() == 1 ? std::optional(*numbers.begin()) : std::nullopt;
 }
 
 /// From now on the hook is told, too, that the servo has gone, and that it is back.
 void Station::watch_absence() {
-  watch_ = std::make_unique<AbsenceWatch>(
-      session_, [this](bool is_away) { entered_(is_away ? StationStage::gone : stage_); });
+  watch_ = std::make_unique<AbsenceWatch>(session_, [this](bool is_away) {
+    is_away ? entered_(StationStage::gone, serial_number()) : entered_(stage_, std::nullopt);
+  });
+}
+
+/// While the last one is waited for to be taken off.
+void Station::show_bench(bool is_last_there, bool is_occupied) {
+  const auto stage = is_last_there ? StationStage::take_off
+                     : is_occupied ? StationStage::other
+                                   : StationStage::left;
+  if (stage != stage_) {
+    go_to(stage);
+  }
 }
 
 Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
@@ -245,11 +292,20 @@ void Station::remember(const state::LedgerRecord& record) {
   }
 }
 
+/// To the next one; `has_asked`: it is not heard under its node ID yet.
+Result<Station::Leaving> Station::give_way(bool has_asked) {
+  go_to(StationStage::recognised);
+  const auto came = has_asked ? session_.live_until(session_.now() + longest_answer,
+                                                    [this] { return is_servo_there(); })
+                              : Result<bool>(true);
+  return came ? Result<Leaving>(Leaving::replaced) : std::unexpected(came.error());
+}
+
 Result<Station::Leaving> Station::wait_until_off(Time deadline) {
   watch_.reset();
   go_to(StationStage::take_off);
   Succession succession(session_, options_.manner.identification.patience, last_);
-  Time heard = session_.now();
+  Time heard = session_.now(), others_since = never;
   while (session_.now() - heard < off_time) {
     if (session_.now() >= deadline) {
       return Leaving::late;
@@ -261,15 +317,21 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
     const bool is_there = !servos.empty() || is_asked(last_.end);
     heard = is_there || session_.away() ? session_.now() : heard;
     const bool has_lent = succession.has_lent_to_another();
-    const bool is_next = last_.is_to_be_repeated
-                             ? is_there
-                             : succession.has_begun(servos) || is_other_asking() || has_lent;
+    const bool is_other = succession.has_begun(servos) || is_other_asking() || has_lent;
+    others_since = is_other ? std::min(others_since, session_.now()) : never;
+    const bool is_last_there =
+        !last_.is_to_be_repeated &&
+        (last_.unit ? succession.has_last() : is_there && (!is_other || last_.are_several));
+    if (is_other && !last_.are_several && !last_.is_to_be_repeated &&
+        (succession.has_last(others_since) || is_any_doubled(servos))) {
+      return Leaving::joined;
+    }
+    const bool is_next = last_.is_to_be_repeated ? is_there : is_other && !is_last_there;
     if (is_next && !last_.are_several) {
-      go_to(StationStage::recognised);
-      const auto came = has_lent ? session_.live_until(session_.now() + longest_answer,
-                                                       [this] { return is_servo_there(); })
-                                 : Result<bool>(true);
-      return came ? Result<Leaving>(Leaving::replaced) : std::unexpected(came.error());
+      return give_way(has_lent);
+    }
+    if (!session_.away()) {
+      show_bench(is_last_there, is_there);
     }
     if (!last_.are_several && is_asked(last_.end)) {
       if (const auto lent = succession.lend(beside_bench()); !lent) { // to tell who it is

@@ -139,42 +139,88 @@ TEST_CASE("the last result stays until the next servo, and an error asks for the
   CHECK(cells(lines_of(picture, 80, 24), Look::block) > 50); // READY
 }
 
-TEST_CASE("a unit that was spoilt is shown by sign and number until it was finished") {
+TEST_CASE("a unit that was spoilt has its small place until it was finished") {
   const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
                                         std::pair<std::size_t, std::size_t>{53, 16});
   INFO(width);
-  const bool is_large = height == 24;
   const Error pulled{Code::not_back, "it was taken off too early"};
   StationPicture picture;
+  const auto lines = [&] {
+    auto all = lines_of(picture, width, height);
+    REQUIRE(all.size() == height);
+    for (const ScreenLine& line : all) {
+      CHECK(display_width(text_of(line)) <= width);
+    }
+    return all;
+  };
+  const auto is_owed = [&](const std::string& number) {
+    return has(text_of(lines().front()), number) && cells({lines().front()}, Look::warning_block);
+  };
+  const auto is_large = [&] {
+    auto all = lines();
+    all.erase(all.begin());
+    return cells(all, Look::warning_block) > 50;
+  };
   auto spoilt = record("error", "a");
   spoilt.code = "not_back";
-  picture.take(spoilt, pulled, true);
-  const auto sees = [&](bool is_big) {
-    const auto lines = lines_of(picture, width, height);
-    REQUIRE(lines.size() == height);
-    return is_big ? cells(lines, Look::warning_block) > 3 * width
-                  : cells(lines, Look::warning_block) >= width && has(text_of(lines), "240900558");
-  };
-  CHECK(sees(is_large));
+  picture.take(spoilt, pulled, true, true);
+  CHECK(is_owed("! 240900558"));
+  CHECK(is_large());                              // the verdict
   picture.enter(fleet::StationStage::recognised); // another one was there already
-  CHECK(sees(true));
-  picture.enter(fleet::StationStage::waiting); // and has gone
-  CHECK(sees(true));
+  CHECK(is_owed("! 240900558"));
+  CHECK_FALSE(is_large());
   picture.enter(fleet::StationStage::working);
-  picture.take(record("pass", "b"), std::nullopt, false);
-  CHECK(sees(is_large));
-  CHECK(cells(lines_of(picture, width, height), Look::good_block) > 4 * width);
+  CHECK_FALSE(is_large());
+  picture.enter(fleet::StationStage::gone, 240900559); // this one, too: its own number counts
+  CHECK(is_large());
+  picture.enter(fleet::StationStage::working);
+  picture.take(record("pass", "b"), std::nullopt, false, true);
+  CHECK(is_owed("! 240900558"));
+  CHECK_FALSE(is_large());
+  picture.enter(fleet::StationStage::left);
+  CHECK_FALSE(is_large());                        // the last result stays
+  picture.enter(fleet::StationStage::recognised); // and has gone, unknown
+  picture.enter(fleet::StationStage::waiting);
+  CHECK(is_large()); // nothing else is to be done
   picture.enter(fleet::StationStage::recognised);
-  picture.take(record("pass", "a"), std::nullopt, false);
-  CHECK(cells(lines_of(picture, width, height), Look::warning_block) == 0);
-  for (const auto* unit : {"c", "d", "e", "f"}) { // more than have room
-    picture.take(record("error", unit), pulled, true);
+  picture.take(record("pass", "a"), std::nullopt, false, true);
+  CHECK(cells(lines(), Look::warning_block) == 0);
+  for (const auto* unit : {"c", "d", "e", "f", "g", "h", "i", "j", "k"}) { // more than have room
+    picture.take(record("error", unit), pulled, true, false);
   }
-  for (const ScreenLine& line : lines_of(picture, width, height)) {
-    CHECK(display_width(text_of(line)) <= width);
-  }
-  picture.owed.front().number = "99";
-  CHECK(has(text_of(lines_of(picture, width, height)), "99"));
+  CHECK(is_owed("+"));
+}
+
+TEST_CASE("the number of the last one is large, and of a swapped label both are") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  INFO(width);
+  StationPicture picture;
+  const auto rows_with_ink = [&](Look ground) {
+    std::size_t rows = 0;
+    for (const ScreenLine& line : lines_of(picture, width, height)) {
+      std::size_t ink = 0;
+      for (const Piece& piece : line) {
+        ink += piece.look == ground && (piece.text == "▀" || piece.text == "▄") ? 1U : 0U;
+      }
+      const bool is_full = cells({line}, ground) > 0 && cells({line}, Look::plain) > 2;
+      rows += is_full || ink > 2 ? 1U : 0U;
+    }
+    return rows;
+  };
+  picture.take(record("pass"), std::nullopt, false, true);
+  CHECK(rows_with_ink(Look::good_block) >= 5 + 3);
+  CHECK(has(text_of(lines_of(picture, width, height)), "servo_id 3"));
+  picture.take(record("error"), Error{Code::not_back, "it was taken off too early"}, true, false);
+  CHECK(rows_with_ink(Look::warning_block) >= 5 + 3);
+  auto swapped = record("fail");
+  swapped.code = "label_mismatch";
+  swapped.expected = 240900559;
+  swapped.actual = swapped.serial_number;
+  picture.take(swapped, Error{Code::label_mismatch, "another one"}, false, true);
+  CHECK(rows_with_ink(Look::bad_block) >= 3 + 3);
+  CHECK(has(text_of(lines_of(picture, width, height)), "240900559 ≠ 240900558"));
+  CHECK(has(text_of(lines_of(picture, width, height)), "label_mismatch"));
 }
 
 TEST_CASE("a servo that has gone too early is told by signs, also one that was not known yet") {
@@ -199,6 +245,74 @@ TEST_CASE("a servo that has gone too early is told by signs, also one that was n
   CHECK_FALSE(is_told());
 }
 
+TEST_CASE("a result stands while its unit is there, and over no other one") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  StationPicture picture;
+  const auto filled = [&](Look look) {
+    return cells(lines_of(picture, width, height), look) > width * 5;
+  };
+  const auto says = [&](const char* text) {
+    return has(text_of(lines_of(picture, width, height)), text);
+  };
+  picture.take(record("pass"), std::nullopt, false, true);
+  CHECK(filled(Look::good_block));
+  auto several = record("error");
+  several.unique_id.reset();
+  several.serial_number.reset();
+  several.code = "several_servos";
+  picture.join(several, Error{Code::several_servos, "two"});
+  CHECK(picture.bells() == 2);
+  CHECK(filled(Look::good_block));
+  CHECK(says("TAKE ALL OFF"));
+  SECTION("the finished one is taken off first") {
+    picture.enter(fleet::StationStage::other);
+    CHECK(cells(lines_of(picture, width, height), Look::good_block) == 0);
+    CHECK(filled(Look::warning_block));
+    CHECK(says("TAKE ALL OFF"));
+    CHECK_FALSE(says("240900558"));
+  }
+  SECTION("both are taken off") {
+    picture.enter(fleet::StationStage::left);
+    CHECK_FALSE(filled(Look::good_block));
+    CHECK(says("240900558"));
+    CHECK(cells(lines_of(picture, width, height), Look::in_block) == 0); // not yet
+    CHECK(cells(lines_of(picture, width, height), Look::out_block) == 0);
+    picture.enter(fleet::StationStage::waiting);
+    CHECK(says("CONNECT ONE SERVO"));
+  }
+  picture.enter(fleet::StationStage::recognised);
+  CHECK_FALSE(picture.are_several());
+}
+
+TEST_CASE("what is to be done follows what lies on the bench") {
+  StationPicture picture;
+  const auto has_sign = [&](Look look) { return cells(lines_of(picture, 53, 16), look) > 100; };
+  picture.take(record("pass"), std::nullopt, false, true);
+  CHECK(has_sign(Look::out_block));
+  picture.enter(fleet::StationStage::left);
+  CHECK(has_sign(Look::in_block));
+  CHECK_FALSE(has_sign(Look::out_block));
+  CHECK(cells(lines_of(picture, 53, 16), Look::good_block) > 20); // written
+  CHECK(cells(lines_of(picture, 53, 16), Look::good_block) < 150);
+  picture.enter(fleet::StationStage::other); // it, or another one
+  CHECK(cells(lines_of(picture, 53, 16), Look::good_block) < 150);
+  CHECK_FALSE(has_sign(Look::in_block));
+  CHECK_FALSE(has_sign(Look::out_block));
+  picture.enter(fleet::StationStage::take_off);
+  CHECK(has_sign(Look::out_block));
+  CHECK(has_sign(Look::good_block));
+  const Error pulled{Code::not_back, "it was taken off too early"};
+  picture.take(record("error"), pulled, true, false);
+  CHECK(has_sign(Look::in_block));
+  picture.take(record("error"), pulled, true, true); // another one is there already
+  picture.enter(fleet::StationStage::take_off);
+  CHECK_FALSE(has_sign(Look::in_block));
+  CHECK_FALSE(has_sign(Look::out_block));
+  picture.enter(fleet::StationStage::left); // it has gone, too
+  CHECK(has_sign(Look::in_block));
+}
+
 TEST_CASE("a run that was stopped says so by a sign while it brings its servo to the end") {
   for (const auto stage : {fleet::StationStage::working, fleet::StationStage::recognised}) {
     StationPicture picture;
@@ -208,8 +322,7 @@ TEST_CASE("a run that was stopped says so by a sign while it brings its servo to
     CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) > 50);
     CHECK(cells(lines_of(picture, 80, 24), Look::warning_block) > 100);
     CHECK(cells(lines_of(picture, 53, 16), Look::block) > 100); // what is to be left stays
-    picture.owed.push_back({"a", "104"});                       // and does not hide it
-    CHECK(cells(lines_of(picture, 53, 16), Look::warning_block) > 50 + 53);
+    picture.totals.owed.push_back({"a", "104"});                // and does not hide it
     CHECK(has(text_of(lines_of(picture, 53, 16)), "104"));
   }
 }
@@ -227,10 +340,38 @@ TEST_CASE("labels that were scanned ahead are counted, and of swapped ones both 
   swapped.parameter = "serial_number";
   swapped.expected = 240900559;
   swapped.actual = swapped.serial_number;
-  picture.take(swapped, Error{Code::label_mismatch, "its serial number is another one"}, false);
+  picture.take(swapped, Error{Code::label_mismatch, "its serial number is another one"}, false,
+               false);
   CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
-  picture.owed.push_back({"b", "104"});
+  picture.totals.owed.push_back({"b", "104"});
   CHECK(has(text_of(lines_of(picture, 53, 16)), "240900559 ≠ 240900558"));
+}
+
+TEST_CASE("a line that is no label has a sign of its own") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  StationPicture picture{.deed = LineDeed::scan, .last = record("pass"), .bad_label = "hello"};
+  CHECK(cells(lines_of(picture, width, height), Look::in_block) == 0);
+  CHECK(cells(lines_of(picture, width, height), Look::warning_block) > 3 * width);
+  CHECK(has(text_of(lines_of(picture, width, height)), "hello"));
+  CHECK(has(text_of(lines_of(picture, width, height)), "SCAN IT AGAIN"));
+  picture.deed = LineDeed::hands_off; // it was read ahead
+  CHECK(cells({lines_of(picture, width, height).back()}, Look::warning_block) > 5);
+  CHECK(has(text_of(lines_of(picture, width, height)), "hello"));
+  picture.bad_label.clear();
+  CHECK(cells(lines_of(picture, width, height), Look::warning_block) == 0);
+}
+
+TEST_CASE("a unit that was finished before has the symbol of a pass beside that of a skip") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  StationPicture picture;
+  picture.take(record("skip"), std::nullopt, false, true);
+  CHECK(cells(lines_of(picture, width, height), Look::skip_block) > 3 * width);
+  CHECK(cells(lines_of(picture, width, height), Look::good_block) > 15);
+  picture.enter(fleet::StationStage::left);
+  CHECK(cells(lines_of(picture, width, height), Look::skip_block) > 20);
+  CHECK(cells(lines_of(picture, width, height), Look::good_block) > 10);
 }
 
 TEST_CASE("while the station is busy something moves") {
@@ -253,7 +394,7 @@ TEST_CASE("a unit that restarts for ever has to be taken off, not connected agai
   for (const bool is_repeating : {true, false}) {
     auto spoilt = record("error");
     spoilt.code = "not_back";
-    picture.take(spoilt, Error{Code::not_back, "it was taken off too early"}, is_repeating);
+    picture.take(spoilt, Error{Code::not_back, "it was taken off too early"}, is_repeating, false);
     const auto lines = lines_of(picture, 80, 24);
     CHECK((cells(lines, Look::in_block) > 0) == is_repeating);
     CHECK((cells(lines, Look::out_block) > 0) != is_repeating);
@@ -262,6 +403,7 @@ TEST_CASE("a unit that restarts for ever has to be taken off, not connected agai
 
 TEST_CASE("a tiny screen is no reason to fail") {
   const StationPicture picture{.last = record("pass")};
+  CHECK(has(text_of(lines_of(picture, 20, 24)), "PASS"));
   for (std::size_t height : {0U, 1U, 4U, 5U, 6U}) {
     for (std::size_t width : {0U, 1U, 10U}) {
       CHECK(lines_of(picture, width, height).size() >= height);

@@ -34,6 +34,8 @@ enum class StationStage : std::uint8_t {
   gone,       ///< it fell silent before its end; the stage before follows if it is heard again
   ended,      ///< its record is in the ledger
   take_off,   ///< it is waited for that no servo is on the bus
+  left,       ///< the finished one is not heard any more, nor another one
+  other,      ///< it is not heard any more, but something else is: another one, or it restarts
 };
 [[nodiscard]] std::string_view name(StationStage stage);
 
@@ -50,12 +52,15 @@ class Station {
     std::function<std::optional<std::string>()> remark{};
   };
 
-  using StageHook = std::function<void(StationStage stage)>;
+  /// `serial_number`: of the servo that is gone, as far as it is known.
+  using StageHook =
+      std::function<void(StationStage stage, std::optional<std::int64_t> serial_number)>;
 
   /// How the wait for the end of a visit ended.
   enum class Leaving : std::uint8_t {
     gone,     ///< no servo has been heard for 3 s
     replaced, ///< another unit is there, or the same one that has still to be done
+    joined,   ///< another unit is there beside the last one: refuse_joined() comes next
     late,     ///< the deadline came first
   };
 
@@ -100,6 +105,9 @@ class Station {
   /// error it may be called again. Errors: those that end a session.
   [[nodiscard]] Result<Leaving> wait_until_off(Time deadline);
 
+  /// The record that several servos are there; all have to be taken off. Errors: as work_on().
+  [[nodiscard]] Result<state::LedgerRecord> refuse_joined();
+
  private:
   struct Past;
   class Succession;
@@ -125,8 +133,12 @@ class Station {
 
   void go_to(StationStage stage);
   void watch_absence();
+  [[nodiscard]] std::optional<std::int64_t> serial_number() const;
+  void show_bench(bool is_last_there, bool is_occupied);
   [[nodiscard]] bool is_asked(Time since = Time::min()) const;
   [[nodiscard]] bool is_other_asking() const;
+  [[nodiscard]] bool is_any_doubled(const std::vector<dronecan::NodeId>& ids) const;
+  [[nodiscard]] Result<Leaving> give_way(bool has_asked);
   void remember(const state::LedgerRecord& record);
   [[nodiscard]] std::vector<dronecan::NodeId> servos_there() const;
   [[nodiscard]] state::NodeIds beside_bench() const;
