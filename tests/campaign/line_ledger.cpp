@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -186,7 +187,8 @@ void LineLedger::check_none_left_out(const std::string& parameter) const {
   }
 }
 
-/// The next unit that gets an ID gets that of the one that was taken out.
+/// The next unit that gets an ID gets that of the one that was taken out; one that came before has
+/// its own.
 void LineLedger::check_scrapped() const {
   const json& scrapped = story_.scrapped;
   const auto& last = story_.shifts.back().told;
@@ -198,7 +200,14 @@ void LineLedger::check_scrapped() const {
   });
   const bool is_plain = std::ranges::none_of(
       line_.recipe["set"], [](const json& value) { return value.contains("at_end"); });
-  if (spare == last.end() || !is_plain) {
+  const auto came_before = [&](const Shift& shift) {
+    return std::ranges::any_of(shift.told, [&](const ToldRecord& told) {
+      return told.record["serial_number"] == line_.spare;
+    });
+  };
+  const bool has_own =
+      std::ranges::any_of(story_.shifts.begin(), std::prev(story_.shifts.end()), came_before);
+  if (spare == last.end() || !is_plain || has_own) {
     return;
   }
   for (const char* parameter : {"servo_id", "static_node_id"}) {
