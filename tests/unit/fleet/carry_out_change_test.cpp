@@ -160,5 +160,34 @@ TEST_CASE("a change is done also where its end cannot be recorded, and who asked
   REQUIRE(change.prepare({saved_goal(11, {"reverse=on"})}).empty());
   CHECK(change.carry_out().empty());
   CHECK(change.results()[0].is_done);
-  CHECK(told.empty() == !asks);
+  CHECK(told.size() == (asks ? 2U : 0U)); // of the result of its round, and of the end
+}
+
+TEST_CASE("a servo that restarts while the end of the change is recorded holds its goal no more") {
+  const Stores stores;
+  (void)stores.history("apply"); // the files are there
+  const Scene scene(scene_of({servo_at(11), servo_at(12)}));
+  scene.live(3s);
+  History history = stores.history("apply", state::Access::read); // to know that moment
+  std::size_t asked = 0;
+  Manner manner{.history = &history};
+  manner.end_not_recorded = [&](const Error&) {
+    if (scene.requests(GetNodeInfo::type, 11) > asked) { // it was looked at for the last time
+      const auto payload = dronecan::NodeStatus{.uptime_s = 0}.encode();
+      scene.roster().receive({.header = {.kind = dronecan::Kind::message,
+                                         .data_type_id = dronecan::NodeStatus::type.id,
+                                         .source = NodeId(11)},
+                              .payload = payload.bytes(),
+                              .at = scene.session->now()});
+    }
+  };
+  Change change(*scene.session, profiles(), {.manner = manner});
+  REQUIRE(
+      change.prepare({goal(11, {"reverse=off"}, Evidence::ram), goal(12, {"reverse=on"})}).empty());
+  asked = scene.requests(GetNodeInfo::type, 11);
+  CHECK(change.carry_out().empty());
+  REQUIRE(scene.member(11).boots == 1);
+  const GoalResult& result = change.results()[0];
+  CHECK_FALSE(result.is_done);
+  CHECK(says(result, "what was in RAM only"));
 }

@@ -481,6 +481,20 @@ TEST_CASE("a servo that cannot read its ROM, and restarts again, has proven noth
   CHECK(scene.requests(dronecan::GetSet::type, 125) - before < 20); // not the whole configuration
 }
 
+TEST_CASE("a servo that is saved, and restarts again while another one is away, is read again") {
+  const Scene scene(servos({servo(11, R"(, "serial_number": 1)"),
+                            servo(12, R"(, "faults": {"return_delay": "5s"})")}) +
+                    R"(, "events": [{"at": "6s", "servo": 1, "happens": "power_off"},
+                                    {"at": "6100ms", "servo": 1, "happens": "power_on"}])");
+  grow_old(scene);
+  const auto result = change(scene, save, {11, 12}).servos[0];
+  REQUIRE(scene.member(11).boots == 2);
+  CHECK(result.is_read_again);
+  CHECK_FALSE(result.is_done());
+  REQUIRE(result.error);
+  CHECK(result.error->message.find("since its ROM was proven") != std::string::npos);
+}
+
 TEST_CASE("what is only written restarts nobody") {
   const Scene scene(servos({servo(11), servo(12)}));
   const auto carried_out = change(scene, set("reverse=on"), {11, 12});

@@ -649,6 +649,13 @@ TEST_CASE("a servo that cannot be read after ERASE is not proven to be erased") 
   CHECK(bench.count("SAVE") == 0);
 }
 
+TEST_CASE("what a servo did not take is not looked after in its RAM") {
+  Bench bench(set({"reverse=on"}));
+  bench.stuck = {at::reverse};
+  CHECK(failure(bench.finish()) == Code::refused);
+  CHECK_FALSE(bench.job->in_ram_only());
+}
+
 TEST_CASE("where one register is not taken nothing is saved") {
   Bench bench(set({"reverse=on", "angle_limit_cw=90deg"}, true));
   bench.stuck = {at::reverse};

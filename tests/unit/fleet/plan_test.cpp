@@ -427,6 +427,7 @@ TEST_CASE("a save is asked where torque is on, in the words for what will happen
   CHECK(question_of(plan_for(save, {{at::torque_output, 1}})).empty());
   const Plan soft = plan_for(save, {{at::torque_output, 0}, {at::soft_start, 1}});
   CHECK(asks(soft, "runs slowly to 0 deg"));
+  CHECK_FALSE(asks(soft, "This can move the shaft")); // no register is changed
   const Plan hard = plan_for(save, {{at::torque_output, 0}, {at::soft_start, 0}});
   CHECK(asks(hard, "returns where the shaft is"));
   CHECK(soft.waits_for_driver());
