@@ -59,7 +59,8 @@ std::vector<Error> Change::carry_out(const MoveHook& moved) {
       errors = write_what_rom_lacks();
     }
   }
-  if (auto lost = errors.empty() && !begun_.empty() ? look_last() : Lost(); lost) {
+  const bool is_carried_out = errors.empty() && !begun_.empty();
+  if (auto lost = is_carried_out ? look_last() : Lost(); lost) {
     look_back(*lost);
   } else {
     errors.push_back(lost.error());

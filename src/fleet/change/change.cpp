@@ -99,9 +99,8 @@ std::optional<Error> Change::refuse(const Goal& goal, const Snapshot& held) cons
 /// Empty: ROM does not matter, or there is no record.
 std::optional<bla::Values> Change::proven_rom(const Goal& goal, const Servo& servo) {
   History* const record = options_.manner.proofs;
-  return goal.saves() && goal.evidence != Evidence::none && record != nullptr
-             ? record->proven_rom(servo, session_)
-             : std::nullopt;
+  const bool is_asked = goal.saves() && goal.evidence != Evidence::none && record != nullptr;
+  return is_asked ? record->proven_rom(servo, session_) : std::nullopt;
 }
 
 /// ROM that could not be read may be whole, and SAVE would replace it by initial values. A restart
@@ -167,9 +166,8 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
     const auto rom = proven_rom(result.goal, held.servo);
     const ToldRom told = told_rom(result.goal, held, options_.manner.proofs, session_);
     const Need need = need_of(result.goal, held, rom);
-    LostIds lost = result.goal.wanted.keep_ids && options_.manner.history != nullptr
-                       ? options_.manner.history->lost_ids(held, session_)
-                       : LostIds();
+    const bool may_lack_ids = result.goal.wanted.keep_ids && options_.manner.history != nullptr;
+    LostIds lost = may_lack_ids ? options_.manner.history->lost_ids(held, session_) : LostIds();
     auto refused = refuse_unread_rom(result, held, need);
     if (refused = refused ? refused : refuse_lost_ids(lost, held); refused) {
       refuse_it(std::move(*refused));
@@ -254,7 +252,8 @@ std::vector<Error> Change::refuse_copies(std::span<const std::size_t> goals) {
   if (options_.gives_back) {
     return {};
   }
-  return errors.empty() && options_.manner.may_allocate ? asking_copies(session_, nodes) : errors;
+  const bool may_hear = errors.empty() && options_.manner.may_allocate;
+  return may_hear ? asking_copies(session_, nodes) : errors;
 }
 
 std::vector<Error> Change::prepare(std::span<const std::size_t> goals) {

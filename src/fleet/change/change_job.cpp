@@ -361,11 +361,11 @@ std::optional<Error> ChangeJob::of_another_unit(const Snapshot& now) const {
   }
   const auto serial = now.servo.identity.readings().serial_number;
   const auto before = plan_.before.servo.identity.readings().serial_number;
-  return serial && before && serial != before
-             ? std::optional(Error{Code::duplicate_unique_id,
-                                   say<texts::other_serial>(id, *serial, *before),
-                                   say<texts::doubled_unique_id_hint>(), id})
-             : std::nullopt;
+  if (serial && before && serial != before) {
+    return Error{Code::duplicate_unique_id, say<texts::other_serial>(id, *serial, *before),
+                 say<texts::doubled_unique_id_hint>(), id};
+  }
+  return std::nullopt;
 }
 
 /// Whether it has restarted once more behind a silence: what others wrote to RAM since then was not

@@ -112,7 +112,8 @@ std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
 
 std::optional<Servo> ChangeJob::in_ram_only() const {
   const bool is_changed = plan_.erase || !result_.changes.empty();
-  return !plan_.restart && is_changed && result_.is_done() ? std::optional(servo_) : std::nullopt;
+  const bool is_in_ram = !plan_.restart && is_changed && result_.is_done();
+  return is_in_ram ? std::optional(servo_) : std::nullopt;
 }
 
 bool ChangeJob::is_proven() const {

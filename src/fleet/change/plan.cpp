@@ -432,7 +432,8 @@ std::string question(std::span<const Plan> plans) {
   if (std::ranges::any_of(plans, stays_in_ram)) {
     lines += say<texts::question_erase_rom>();
   }
-  return lines.empty() || !of_registers ? lines : say<texts::question_may_move>() + lines;
+  const bool is_about_registers = !lines.empty() && of_registers;
+  return is_about_registers ? say<texts::question_may_move>() + lines : lines;
 }
 
 } // namespace blactl::fleet

@@ -463,6 +463,38 @@ TEST_CASE("of a servo that is not there any more nothing is told as held") {
   }
 }
 
+TEST_CASE("a servo that cannot read its ROM, and restarts again, has proven nothing to look at") {
+  const Scene scene(
+      servos({servo(11, R"(, "serial_number": 1, "faults": {"rom_unread_starts": 9})"),
+              servo(12, R"(, "faults": {"return_delay": "20s"})")}) +
+      R"(, "foreign": [{"kind": "autopilot", "node_id": 33, "allocates": true}],
+                         "events": [{"at": "20s", "servo": 1, "happens": "power_off"},
+                                    {"at": "20100ms", "servo": 1, "happens": "power_on"}])");
+  scene.live(10s); // until it has got a node ID: 125, from the end as usual
+  const auto plans = plans_for(scene, restart, {125, 12});
+  const std::size_t before = scene.requests(dronecan::GetSet::type, 125);
+  const auto result = carry_out(*scene.session, profiles(), plans, {.come_back = 30s}).servos[0];
+  REQUIRE(scene.member(125).boots == 2);
+  CHECK(result.is_done());
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].code == "rom_unread");
+  CHECK(scene.requests(dronecan::GetSet::type, 125) - before < 20); // not the whole configuration
+}
+
+TEST_CASE("a servo that is saved, and restarts again while another one is away, is read again") {
+  const Scene scene(servos({servo(11, R"(, "serial_number": 1)"),
+                            servo(12, R"(, "faults": {"return_delay": "5s"})")}) +
+                    R"(, "events": [{"at": "6s", "servo": 1, "happens": "power_off"},
+                                    {"at": "6100ms", "servo": 1, "happens": "power_on"}])");
+  grow_old(scene);
+  const auto result = change(scene, save, {11, 12}).servos[0];
+  REQUIRE(scene.member(11).boots == 2);
+  CHECK(result.is_read_again);
+  CHECK_FALSE(result.is_done());
+  REQUIRE(result.error);
+  CHECK(result.error->message.find("since its ROM was proven") != std::string::npos);
+}
+
 TEST_CASE("what is only written restarts nobody") {
   const Scene scene(servos({servo(11), servo(12)}));
   const auto carried_out = change(scene, set("reverse=on"), {11, 12});

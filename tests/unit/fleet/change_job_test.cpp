@@ -21,8 +21,8 @@ namespace {
 /// One servo and the job that changes it, without a bus: the servo answers when the test says so.
 class Bench {
  public:
-  explicit Bench(const Wanted& wanted, const bla::Values& held = {})
-      : rom(*bla21().identity.factory_defaults()), known_(prepare()) {
+  explicit Bench(const Wanted& wanted, const bla::Values& held = {}, Servo known = bla21())
+      : rom(*bla21().identity.factory_defaults()), known_(prepare(std::move(known))) {
     for (const auto& [address, raw] : held) {
       rom[address] = raw;
     }
@@ -148,18 +148,18 @@ class Bench {
   }
 
   bla::Values ram, rom;
-  std::set<bla::Address> stuck{}; ///< registers that keep their value, whatever is written
-  bool obeys = true;              ///< opcodes and restarts
-  bool agrees = true;             ///< to them
-  Duration start_time = 3s;       ///< from a restart until it is heard
-  Time started{900s};             ///< since when it runs
+  std::set<bla::Address> stuck{};    ///< registers that keep their value, whatever is written
+  std::set<bla::Address> nameless{}; ///< registers that it does not know
+  bool obeys = true;                 ///< opcodes and restarts
+  bool agrees = true;                ///< to them
+  Duration start_time = 3s;          ///< from a restart until it is heard
+  Time started{900s};                ///< since when it runs
   Plan plan;
   std::optional<ChangeJob> job;
   std::vector<std::string> asked; ///< "SAVE", "write 0x23=1", …, "nothing" in the end
 
  private:
-  static Servo prepare() {
-    Servo servo = bla21();
+  static Servo prepare(Servo servo) {
     servo.since = Time{1000s};
     return servo;
   }
@@ -227,6 +227,9 @@ class Bench {
     const auto* number = std::get_if<std::int64_t>(&get_set->value);
     if (number != nullptr && !stuck.contains(address)) {
       ram[address] = *number;
+    }
+    if (nameless.contains(address)) {
+      return GetSet::Response{}.encode();
     }
     const bla::Values product{{at::model_number, 61},
                               {at::serial_number, 240900558},
@@ -591,6 +594,17 @@ TEST_CASE("a servo that answers ERASE with a refusal and carries it out is found
   CHECK(result.may_have_changed);
 }
 
+TEST_CASE("a refused ERASE is not repeated where it has left neither the old values nor defaults") {
+  Bench bench(erase_and_save, {{at::angle_limit_cw, 900}});
+  bench.agrees = false;
+  bench.until("read 0x38");
+  bench.ram[at::angle_limit_cw] = 450;
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::mismatch);
+  CHECK(bench.count("ERASE") == 1);
+  CHECK(bench.count("SAVE") == 0);
+}
+
 TEST_CASE("an ERASE without an answer is judged by the registers") {
   Bench bench(erase, with_ids);
   bench.until("ERASE");
@@ -633,6 +647,13 @@ TEST_CASE("a servo that cannot be read after ERASE is not proven to be erased") 
   CHECK(failure(bench.finish()) == Code::timeout);
   CHECK(bench.count("ERASE") == 1);
   CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("what a servo did not take is not looked after in its RAM") {
+  Bench bench(set({"reverse=on"}));
+  bench.stuck = {at::reverse};
+  CHECK(failure(bench.finish()) == Code::refused);
+  CHECK_FALSE(bench.job->in_ram_only());
 }
 
 TEST_CASE("where one register is not taken nothing is saved") {
@@ -852,6 +873,19 @@ TEST_CASE("interrupted while it is read after SAVE: it is back, and not proven")
   CHECK(result.node_id_after == NodeId(11));
 }
 
+TEST_CASE("interrupted while it is read after a restart that was to prove ROM: nothing was saved") {
+  Wanted proving = restart;
+  proving.proves_rom = true;
+  Bench bench(proving);
+  bench.until("RestartNode");
+  bench.until("read 0x38");
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(says(result, "not read completely"));
+  CHECK_FALSE(says(result, "saved"));
+  CHECK_FALSE(result.may_have_saved);
+}
+
 TEST_CASE("interrupted before ERASE it is not sent; after it, it is not claimed") {
   const auto* question = GENERATE("GetNodeInfo", "ERASE", "read 0x20", "read 0x46");
   Bench bench(erase_and_save, with_ids);
@@ -973,6 +1007,37 @@ TEST_CASE("a servo that restarts again and again is not saved") {
   CHECK(failure(bench.job->result()) == Code::state);
   CHECK(says(bench.job->result(), "again and again"));
   CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("a servo to which another node writes whenever it has been looked at is not saved") {
+  Bench bench(save);
+  while (bench.asked.back() != "nothing") {
+    REQUIRE(bench.asked.size() < 1000);
+    const std::string before = bench.asked.size() < 2 ? "" : bench.asked[bench.asked.size() - 2];
+    if (bench.asked.back() == "GetNodeInfo" && !before.starts_with("read")) { // not of the reading
+      bench.live(1s);
+      bench.other_writes(at::reverse, 1);
+      bench.other_writes(at::reverse, 0); // as it was
+    }
+    bench.answer();
+  }
+  CHECK(failure(bench.job->result()) == Code::state);
+  CHECK(bench.count("SAVE") == 0);
+  CHECK(bench.count("read 0x38") == 3);
+}
+
+TEST_CASE(
+    "a servo that tells its serial number only before a save, or only after it, is that one") {
+  const bool before = GENERATE(false, true);
+  Servo known = bla21();
+  if (!before) {
+    known.identity = bla::Identity(profiles(), {61, std::nullopt, 1400, 12050});
+  }
+  Bench bench(save, {}, known);
+  bench.nameless = before ? std::set{at::serial_number} : std::set<bla::Address>{};
+  const ChangeResult& result = bench.finish();
+  CHECK(result.is_done());
+  CHECK(result.saved);
 }
 
 TEST_CASE("a servo that is young when it is read back is read once: what it holds is from ROM") {

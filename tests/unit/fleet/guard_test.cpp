@@ -229,3 +229,32 @@ TEST_CASE("who restarts while others are asked who they are is asked again") {
   REQUIRE(scene.member(12).boots == 1);
   CHECK(scene.roster().copies(NodeId(11)) == std::vector{NodeId(12)});
 }
+
+TEST_CASE("who came after the search is refused, but not a servo that this change has restarted") {
+  const Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])");
+  const Servo servo = scene.identify(11);
+  const Time before = scene.member(11).first_heard - 1s;
+  const auto others = hear_others(*scene.session, {}, before, {});
+  REQUIRE(others.errors.size() == 1);
+  CHECK(others.errors[0].code == Code::state);
+  CHECK(others.errors[0].node_id == 11);
+  const std::vector own{*servo.unique_id};
+  CHECK(hear_others(*scene.session, {}, before, own).errors.empty());
+}
+
+TEST_CASE("a silent node that restarts again and again does not hold up a command") {
+  std::string events;
+  for (int at = 2; at < 20; ++at) {
+    events += fmt::format(R"({}{{"at": "{}s", "servo": 1, "world": {{"voltage": "2V"}}}},
+                             {{"at": "{}100ms", "servo": 1, "world": {{"voltage": "12V"}}}})",
+                          at == 2 ? "" : ",", at, at);
+  }
+  const Scene scene(fmt::format(R"("servos": [
+      {{"model": "BLA21-12U-AB", "serial_number": 1, "node_id": 13, "faults": {{"mute": true}}}}],
+      "events": [{}])",
+                                events));
+  scene.live(1500ms);
+  CHECK(hear_others(*scene.session, {}, std::nullopt, {}).errors.empty());
+  CHECK(scene.member(13).boots == 3);
+  CHECK(scene.requests(GetNodeInfo::type, 13) == 9); // each of three runs, with its repetitions
+}

@@ -233,6 +233,20 @@ TEST_CASE("what stops a shaft is written first") {
   CHECK(plan.changes[0].parameter->address == at::command_speed);
 }
 
+TEST_CASE("a torque of 0 stops a shaft, too, and one that is held already stops nothing") {
+  const auto order = [](std::int64_t held) {
+    const Plan plan = plan_for(set({"timeout_action=hold", "command_torque=0%"}),
+                               {{at::command_torque, held}, {at::speed_torque_control, 1}});
+    std::vector<bla::Address> addresses;
+    for (const RegisterChange& change : plan.changes) {
+      addresses.push_back(change.parameter->address);
+    }
+    return addresses;
+  };
+  CHECK(order(20) == std::vector{at::command_torque, at::timeout_action});
+  CHECK(order(0) == std::vector{at::timeout_action, at::command_torque});
+}
+
 TEST_CASE("the command that a servo discards as its output goes on is written after that") {
   const Plan plan = plan_for(set({"command_angle=40deg", "torque_output=on"}),
                              {{at::command_angle, 400}, {at::torque_output, 1}});
@@ -354,6 +368,10 @@ TEST_CASE("a plan tells which servo ID it gives for good") {
   CHECK(plan_for(save, held).given_servo_id() == 7);
   CHECK(plan_for(set({"reverse=on"}, true), held).given_servo_id() == 7);
   CHECK_FALSE(plan_for(restart, held).given_servo_id());
+  Wanted known = restart;
+  known.rom_servo_id = 7; // as its ROM is known to hold
+  CHECK(plan_for(known, {{at::servo_id, 5}}).given_servo_id() == 7);
+  CHECK_FALSE(plan_for(known, held).given_servo_id());
   CHECK_FALSE(plan_for(erase_and_save, held).given_servo_id());
 }
 
@@ -409,6 +427,7 @@ TEST_CASE("a save is asked where torque is on, in the words for what will happen
   CHECK(question_of(plan_for(save, {{at::torque_output, 1}})).empty());
   const Plan soft = plan_for(save, {{at::torque_output, 0}, {at::soft_start, 1}});
   CHECK(asks(soft, "runs slowly to 0 deg"));
+  CHECK_FALSE(asks(soft, "This can move the shaft")); // no register is changed
   const Plan hard = plan_for(save, {{at::torque_output, 0}, {at::soft_start, 0}});
   CHECK(asks(hard, "returns where the shaft is"));
   CHECK(soft.waits_for_driver());

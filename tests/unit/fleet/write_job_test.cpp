@@ -157,6 +157,17 @@ TEST_CASE("nothing is written to another unit that has come to the ID unheard") 
   CHECK(job.changes()[0].error->code == Code::state);
 }
 
+TEST_CASE("nothing is written to a servo whose answer does not tell who it is") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0)});
+  CHECK(text(job.next(Script::start())) == "GetNodeInfo");
+  const std::vector<std::uint8_t> broken{1, 2, 3};
+  CHECK(text(job.next({Outcome::Kind::answered, broken, {}})) == "nothing");
+  CHECK_FALSE(job.has_written());
+  REQUIRE(job.changes()[0].error);
+  CHECK(job.changes()[0].error->code == Code::state);
+}
+
 TEST_CASE("a servo that keeps its old value refused") {
   Scene scene(servo_11); // refuses what is out of range
   WriteJob job(scene.roster(), scene.identify(11),
@@ -177,6 +188,22 @@ TEST_CASE("where all was refused nothing has changed") {
   scene.run(job);
   CHECK(job.changes()[0].error->code == Code::refused);
   CHECK(job.has_written());
+  CHECK_FALSE(job.may_have_changed());
+}
+
+TEST_CASE("where all that was sent was lost, and the rest is held back, nothing has changed") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
+  CHECK(bench.begin(job) == "write 0x23=1");
+  CHECK(text(job.next(Script::timed_out())) == "read 0x23");
+  CHECK(bench.value(job, "0x23", 0) == "GetNodeInfo");
+  CHECK(bench.proven(job) == "write 0x23=1");
+  arm(bench.roster, {});
+  CHECK(text(job.next(Script::withheld())) == "nothing");
+  CHECK(job.has_written());
+  CHECK(job.changes()[0].error->code == Code::armed);
+  CHECK(job.changes()[0].after == 0);
+  CHECK(job.changes()[1].status == ChangeStatus::planned);
   CHECK_FALSE(job.may_have_changed());
 }
 
@@ -220,6 +247,17 @@ TEST_CASE("a node ID under which another node is heard meanwhile is not written"
     REQUIRE(job.changes()[1].error);
     CHECK(job.changes()[1].error->code == Code::duplicate_node_id);
   }
+}
+
+TEST_CASE("a node ID that a unit meanwhile heard there has left again is written") {
+  Bench bench;
+  WriteJob job = bench.job({change("angle_limit_cw", 900, 450), change("static_node_id", 20, 11)});
+  CHECK(bench.begin(job) == "write 0x38=900");
+  const auto status = message(dronecan::NodeStatus::type, 20, dronecan::NodeStatus{}.encode());
+  bench.roster.hear(status.front(), Time{500ms});
+  bench.roster.learn(NodeId(20), {.unique_id = {7}}, Time{500ms});
+  bench.roster.learn(NodeId(21), {.unique_id = {7}}, Time{2s}); // it has just started
+  CHECK(bench.value(job, "angle_limit_cw", 900) == "write 0x46=20");
 }
 
 TEST_CASE("a node ID that an allocator gives to another unit meanwhile is not written") {
@@ -594,6 +632,27 @@ TEST_CASE("equal values that a restart has changed are not told as unchanged") {
   }
 }
 
+TEST_CASE(
+    "what a register held instead of its new value is not told once a restart has replaced it") {
+  Bench bench;
+  const RegisterChange mode = change("pwm_mode", 0, 0);
+  WriteJob job(bench.roster, bench.servo, {change("reverse", 1, 0), mode},
+               {.premises = {{mode.parameter, 0}}});
+  CHECK(bench.begin(job) == "write 0x23=1");
+  CHECK(bench.value(job, "0x23", 2) == "read 0x23");
+  CHECK(bench.value(job, "0x23", 2) == "GetNodeInfo");
+  CHECK(bench.proven(job) == "read 0x37");
+  CHECK(job.changes()[0].status == ChangeStatus::mismatch);
+  CHECK(bench.value(job, "0x37", 0) == "GetNodeInfo");
+  bench.restart();
+  CHECK(text(job.next(bench.script.info(1))) == "read 0x37");
+  CHECK(bench.value(job, "0x37", 1) == "nothing");
+  CHECK(job.changes()[0].status == ChangeStatus::failed);
+  CHECK_FALSE(job.changes()[0].after);
+  CHECK(job.changes()[0].error->code == Code::state);
+  CHECK(job.changes()[1].after == 1);
+}
+
 TEST_CASE("where all was equal, and a restart has changed it, that is an error") {
   Bench bench;
   const RegisterChange torque = change("torque_output", 1, 1);
@@ -841,6 +900,30 @@ TEST_CASE("an end in between leaves nothing that is called written") {
   CHECK_FALSE(job.changes()[0].after);
   CHECK(job.changes()[1].status == ChangeStatus::failed);
   CHECK(job.changes()[reads_back ? 0 : 1].error->code == Code::interrupted);
+}
+
+TEST_CASE("where no frame leaves any more, or all is to end, nothing more is asked or written") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
+  const bool is_sent = GENERATE(false, true); // the question that ends it
+  const Outcome end = is_sent ? Script::cancelled() : Script::not_sent();
+  const Code code = is_sent ? Code::interrupted : Code::no_acknowledge;
+  CHECK(bench.begin(job) == "write 0x23=1");
+  SECTION("as it is read what became of a write without an answer") {
+    CHECK(text(job.next(Script::timed_out())) == "read 0x23");
+    CHECK(text(job.next(end)) == "nothing");
+    CHECK(job.changes()[1].status == ChangeStatus::planned);
+  }
+  SECTION("as it is read once more in the end") {
+    CHECK(bench.value(job, "0x23", 1) == "write 0x45=5");
+    CHECK(bench.value(job, "0x45", 5) == "read 0x23");
+    CHECK(text(job.next(end)) == "nothing");
+    CHECK(job.changes()[1].status == ChangeStatus::failed);
+  }
+  CHECK(job.changes()[0].status == ChangeStatus::failed);
+  CHECK_FALSE(job.changes()[0].after);
+  REQUIRE(job.changes()[0].error);
+  CHECK(job.changes()[0].error->code == code);
 }
 
 TEST_CASE("nothing is written to two units, and an error that was told before stays") {
