@@ -194,7 +194,28 @@ void write_begun(JsonWriter& json, const LedgerRecord& record) {
   json.member("station", record.station);
 }
 
-Report check(const LedgerStore& store) {
+/// The ledger and the table of the IDs that were given are made at once: if one of them is not
+/// there, it was lost.
+Result<void> check_files(const LedgerStore& store, std::string_view interface) {
+  const auto counters = open_counters(interface, state::Access::read);
+  if (!counters) {
+    return std::unexpected(counters.error());
+  }
+  const std::string folder = printable(stores_folder(interface));
+  if (store.is_there() && !counters->is_there()) {
+    return fail(Code::state, say<texts::counters_lost>(folder),
+                say<texts::counters_lost_hint>(folder));
+  }
+  if (counters->is_there() && !store.is_there()) {
+    return fail(Code::state, say<texts::ledger_lost>(folder), say<texts::ledger_lost_hint>(folder));
+  }
+  return counters->check();
+}
+
+Report check(const LedgerStore& store, std::string_view interface) {
+  if (const auto checked = check_files(store, interface); !checked) {
+    return failed(checked.error());
+  }
   const auto holes = store.holes();
   const auto begun =
       holes ? store.begun() : Result<std::vector<LedgerRecord>>(std::unexpected(holes.error()));
@@ -282,6 +303,10 @@ Report back_up(const LedgerOptions& options, const LedgerStore& store, const Con
       counters ? store.back_up(options.backup) : Result<void>(std::unexpected(counters.error()));
   if (copied) {
     copied = counters->back_up(ids);
+    if (!copied) { // no half of a copy stands in the way of the next one
+      std::error_code ignored;
+      std::filesystem::remove(options.backup, ignored);
+    }
   }
   if (!copied) {
     return failed(copied.error());
@@ -300,7 +325,7 @@ Report execute(const LedgerOptions& options, Context& context) {
     return failed(store.error());
   }
   return !options.scrap.empty()    ? scrap(options, *store, context)
-         : options.check           ? check(*store)
+         : options.check           ? check(*store, context.shared().interface)
          : !options.backup.empty() ? back_up(options, *store, context)
                                    : list(options, *store, context);
 }
