@@ -105,6 +105,26 @@ TEST_CASE("the check of the ledger tells a file that was lost or damaged") {
   check("state", "ledger.db is not there");
 }
 
+TEST_CASE("IDs by labels are not given while the table of IDs is lost") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 20}, {.serial = 102, .from = 25, .to = 3000}});
+  const std::string recipe = hall.bench().file(
+      "labels.json", R"({"schema": "blactl-recipe/1", "name": "labels", "model": "BLA21-12U-AB",
+                         "set": {"angle_limit_cw": "45.0deg"}})");
+  const auto labelled = [&](const char* label) {
+    return hall.run({"provision", recipe, "-y", "--json", "--count", "1", "--label", "-"},
+                    {.stdin_text = label});
+  };
+  REQUIRE(labelled(R"({"serial_number": 101, "servo_id": 7})").status == 0);
+  fs::remove(counters_of(hall));
+  for (int i = 0; i < 2; ++i) { // no new table is made
+    const Result run = labelled(R"({"serial_number": 102, "servo_id": 7})");
+    INFO(run.out << run.err);
+    CHECK(codes(run) == std::vector<std::string>{"state"});
+    CHECK(contains(run.err, "counters.db is not there"));
+    CHECK(json_lines(run.out).size() == 1); // no record
+  }
+}
+
 TEST_CASE("both files of a copy are new ones") {
   const Hall hall({{.serial = 101, .from = 1, .to = 3000}});
   REQUIRE(hall.provision({"--count", "1"}).status == 0);

@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/confirm.hpp"
 #include "cli/context.hpp"
+#include "cli/line/line_stores.hpp"
 #include "cli/line/record_view.hpp"
 #include "cli/line/station_name.hpp"
 #include "cli/line/texts.hpp"
@@ -194,22 +195,12 @@ void write_begun(JsonWriter& json, const LedgerRecord& record) {
   json.member("station", record.station);
 }
 
-/// The ledger and the table of the IDs that were given are made at once: if one of them is not
-/// there, it was lost.
+/// Whether both files are there and whole.
 Result<void> check_files(const LedgerStore& store, std::string_view interface) {
   const auto counters = open_counters(interface, state::Access::read);
-  if (!counters) {
-    return std::unexpected(counters.error());
-  }
-  const std::string folder = printable(stores_folder(interface));
-  if (store.is_there() && !counters->is_there()) {
-    return fail(Code::state, say<texts::counters_lost>(folder),
-                say<texts::counters_lost_hint>(folder));
-  }
-  if (counters->is_there() && !store.is_there()) {
-    return fail(Code::state, say<texts::ledger_lost>(folder), say<texts::ledger_lost_hint>(folder));
-  }
-  return counters->check();
+  const auto complete =
+      counters ? check_line_stores(store, *counters, interface) : std::unexpected(counters.error());
+  return complete ? counters->check() : complete;
 }
 
 Report check(const LedgerStore& store, std::string_view interface) {
