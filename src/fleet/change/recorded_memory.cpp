@@ -135,6 +135,10 @@ bool started_before(WallTime started, WallTime at, WallTime now) {
 
 WallTime last_write(const state::SnapshotEntry& change) {
   constexpr std::chrono::seconds writing_time{10}; // usual, where nobody recorded how it ended
+bool started_after(WallTime started, WallTime at, WallTime now) {
+  return at < started - drift(at, now);
+}
+
   constexpr std::chrono::seconds whole_second{1};  // an uptime lets a start look later by as much
   return change.settled ? *change.settled + whole_second : change.at + writing_time;
 }

@@ -206,6 +206,9 @@ class History {
 /// Whether RAM holds a value that this change has put there; empty: no register of it was read. One
 /// that it has put back shows nothing.
 [[nodiscard]] std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram);
+/// Likewise, whether it has started after that time, by a clock that nobody has set since.
+[[nodiscard]] bool started_after(WallTime started, WallTime at, WallTime now);
+
 
 /// The settings that this plan replaces, with their present values; all writable ones for ERASE,
 /// and where any may be changed.

@@ -40,7 +40,8 @@ struct Undoing {
 
 /// The change as far as the servo on this node ID shows it, where it broke off. One that has run on
 /// since has saved nothing; of what a restart has brought back only what the tries have written is
-/// theirs. A node ID always goes back. Errors: as Session::run().
+/// theirs. A node ID always goes back. A change in RAM only that a restart has brought back counts
+/// as saved: another tool has done so. Errors: as Session::run().
 [[nodiscard]] Result<Undoing> as_left(Undoing change, dronecan::NodeId id, Session& session,
                                       const bla::Profiles& profiles,
                                       const Identification::Options& options);
