@@ -12,6 +12,7 @@
 #include "fleet/change/unnamed.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace blactl::fleet {
@@ -290,6 +291,7 @@ void Change::conclude(const UnitChange& unit, GoalResult& result) {
   if (result.need == Need::prove && last.rom) {
     result.change.warnings =
         unnamed(result.goal, unit.plan.before, {last.rom->values, true}, result.need, true);
+    std::ranges::move(losses(last.warnings), std::back_inserter(result.change.warnings));
   }
 }
 

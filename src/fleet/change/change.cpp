@@ -30,12 +30,6 @@ Wanted wanted(const Goal& goal, Need need) {
                              : goal.wanted;
 }
 
-/// Of the warnings of an earlier round, those of what its restart has taken from RAM.
-std::vector<Warning> losses(std::vector<Warning> warnings) {
-  std::erase_if(warnings, [](const Warning& warning) { return warning.code != "unnamed_lost"; });
-  return warnings;
-}
-
 } // namespace
 
 Change::Change(Session& session, const bla::Profiles& profiles, Options options)
@@ -194,6 +188,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
       next.lost_ids = std::move(lost.ids);
       if (next.restart == RestartKind::restart) {
         next.rom_servo_id = bla::find(told.values, bla::address::servo_id);
+        next.told_until = session_.now();
       }
       tasks.push_back({std::move(held), std::move(next)});
     }

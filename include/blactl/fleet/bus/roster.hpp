@@ -301,6 +301,12 @@ class Roster {
   }
 
   /// Another node that commanded this servo to move after `since`, as far as heard.
+  /// As CommandWatch::written_to().
+  [[nodiscard]] std::vector<CommandWatch::Written> written_to(dronecan::NodeId id,
+                                                              Time since) const {
+    return commands_.written_to(id, since);
+  }
+
   [[nodiscard]] std::optional<dronecan::NodeId> commander_of(const Servo& servo, Time since) const;
 
   /// As CommandWatch::commander_of_id().
