@@ -237,3 +237,21 @@ TEST_CASE("a servo ID that is heard from a node that does not answer is not give
           .run({"set", "-n", "11", "servo_id=9", "--save", "-y"});
   check_error(result, 9, "duplicate_servo_id", "node 11 would have servo ID 9, which node 12 has");
 }
+TEST_CASE("a servo ID that another servo has come with since is not saved") {
+  const Fleet fleet(Scene()
+                        .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"servo_id", 1}})
+                        .servo("BLA21-12U-AB", 12, {{"serial_number", 2}, {"servo_id", 2}})
+                        .servo("BLA21-12U-AB", 13, {{"serial_number", 3}, {"servo_id", 40}})
+                        .joins(3, "2600ms"));
+  const Result applied =
+      fleet.apply({{"schema", "blactl-fleet/1"},
+                   {"servos",
+                    {{{"name", "a"}, {"match", {{"node_id", 11}}}, {"set", {{"smoothing", "off"}}}},
+                     {{"name", "b"}, {"match", {{"node_id", 12}}}, {"set", {{"servo_id", 40}}}}}}},
+                  {"--stagger", "3"});
+  INFO(applied.err);
+  CHECK(applied.status == 6);
+  CHECK(contains(applied.err, "servo ID 40"));
+  CHECK(fleet.rom("12", "servo_id") == 2);
+}
+

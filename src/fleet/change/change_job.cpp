@@ -143,6 +143,7 @@ std::unique_ptr<SaveRestartJob> ChangeJob::restart() const {
                                   .patience = options_.identification.patience,
                                   .pace = options_.pace,
                                   .expected_free_since = begin_,
+                                  .given_servo_id = plan_.given_servo_id(),
                                   .may_be_driven = may_be_driven(),
                                   .next_servo_id = plan_.rom_servo_id};
   if (given.value_or(0) != 0) {

@@ -248,7 +248,11 @@ std::optional<Error> newcomer_conflict(const Roster& roster, Time surveyed, cons
       return servo_id_taken(plan.before.servo.id.value(), *servo_id, id);
     }
   }
-  return std::nullopt;
+  const Member* holder =
+      servo_id ? roster.newcomer_with(*servo_id, surveyed, plan.before.servo.id, {}) : nullptr;
+  return holder != nullptr
+             ? std::optional(servo_id_taken(plan.before.servo.id.value(), *servo_id, holder->id))
+             : std::nullopt;
 }
 
 } // namespace blactl::fleet

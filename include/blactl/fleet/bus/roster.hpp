@@ -277,6 +277,12 @@ class Roster {
     return chosen_.contains(servo.id) && !is_meant_(servo);
   }
 
+  /// A node that was first heard after `since`, sends this servo ID, and is none of the units
+  /// `own`; one that has not told yet who it is may be any.
+  [[nodiscard]] const Member* newcomer_with(std::int64_t servo_id, Time since,
+                                            dronecan::NodeId except,
+                                            const std::set<dronecan::UniqueId>& own) const;
+
   /// As CommandWatch::giver_of(), with a servo ID.
   [[nodiscard]] std::optional<dronecan::NodeId>
   giver_of_servo_id(std::int64_t given, dronecan::NodeId except, Time since) const {
