@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -135,6 +136,20 @@ Result<std::optional<RomProof>> ProofStore::find(const UniqueId& unique_id) cons
                                  "WHERE unique_id = ? AND boot = ? AND boot <> ''");
   return statement.bind(unique_id).bind(boot_id()).first(
       [&] { return proof_of(unique_id, statement); });
+}
+
+Result<std::vector<RomProof>> ProofStore::proofs() const {
+  std::vector<RomProof> proofs;
+  const Database* database = file_->database();
+  if (database == nullptr) {
+    return proofs;
+  }
+  Statement statement(*database, "SELECT rom, started, uptime, clock, unique_id FROM proofs");
+  const auto read = statement.each([&] {
+    proofs.push_back(proof_of(statement.array<std::tuple_size_v<UniqueId>>(4), statement));
+    return true;
+  });
+  return read ? Result<std::vector<RomProof>>(std::move(proofs)) : std::unexpected(read.error());
 }
 
 Result<void> ProofStore::clear() {

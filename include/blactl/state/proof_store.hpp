@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace blactl::state {
 
@@ -80,6 +81,9 @@ class ProofStore {
   /// The proof of a unit, to be checked with holds(); empty: its ROM is unknown. What was proven
   /// before this machine started is not: its clock may have begun anew at the same time.
   [[nodiscard]] Result<std::optional<RomProof>> find(const dronecan::UniqueId& unique_id) const;
+
+  /// All proofs, also those of before this machine started: what ROM held then.
+  [[nodiscard]] Result<std::vector<RomProof>> proofs() const;
 
   /// Removes all proofs.
   [[nodiscard]] Result<void> clear();

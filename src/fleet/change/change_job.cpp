@@ -318,11 +318,11 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
                           say<texts::restarts_again_hint>(), id};
   }
   result_.may_have_saved = *plan_.restart == RestartKind::save && restart_->may_have_happened();
-  result_.duration = restart_->duration();
   if (plan_.restart == RestartKind::restart && restart_->may_have_happened()) {
     std::ranges::move(written_before_restart(roster_, plan_, restart_->sent_at()),
                       std::back_inserter(result_.warnings));
   }
+  result_.duration = restart_->duration();
   result_.returned = result_.node_id_after = restart_->returned();
   if (!restart_->is_sent() || restart_->has_run_on()) {
     result_.node_id_after = servo_.id; // it stayed

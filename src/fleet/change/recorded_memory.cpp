@@ -3,6 +3,8 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/history.hpp"
 
+#include "fleet/change/id_holders.hpp"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -133,12 +135,12 @@ bool started_before(WallTime started, WallTime at, WallTime now) {
   return started + clock_set < at - drift(at, now);
 }
 
-WallTime last_write(const state::SnapshotEntry& change) {
-  constexpr std::chrono::seconds writing_time{10}; // usual, where nobody recorded how it ended
 bool started_after(WallTime started, WallTime at, WallTime now) {
   return at < started - drift(at, now);
 }
 
+WallTime last_write(const state::SnapshotEntry& change) {
+  constexpr std::chrono::seconds writing_time{10}; // usual, where nobody recorded how it ended
   constexpr std::chrono::seconds whole_second{1};  // an uptime lets a start look later by as much
   return change.settled ? *change.settled + whole_second : change.at + writing_time;
 }
@@ -285,6 +287,19 @@ LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
     }
   }
   return {};
+}
+
+std::vector<Waiting> History::waiting(const Roster& roster) const {
+  std::vector<Waiting> units;
+  const auto proofs = proofs_.proofs();
+  for (const state::RomProof& proof : proofs ? *proofs : std::vector<state::RomProof>()) {
+    const auto id = proof.rom.find(bla::address::static_node_id.value());
+    if (id != proof.rom.end() && id->second != 0 && roster.is_pending(proof.unique_id) &&
+        !is_here(roster, proof.unique_id)) {
+      units.push_back({proof.unique_id, id->second});
+    }
+  }
+  return units;
 }
 
 bool History::is_rom_unread(const Servo& servo, const Session& session) {

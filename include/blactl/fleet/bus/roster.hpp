@@ -301,18 +301,18 @@ class Roster {
     return commands_.writer_to(id, since, reg);
   }
 
-  /// As CommandWatch::saver_of().
-  [[nodiscard]] std::optional<dronecan::NodeId> saver_of(dronecan::NodeId id, Time since) const {
-    return commands_.saver_of(id, since);
-  }
-
-  /// Another node that commanded this servo to move after `since`, as far as heard.
   /// As CommandWatch::written_to().
   [[nodiscard]] std::vector<CommandWatch::Written> written_to(dronecan::NodeId id,
                                                               Time since) const {
     return commands_.written_to(id, since);
   }
 
+  /// As CommandWatch::saver_of().
+  [[nodiscard]] std::optional<dronecan::NodeId> saver_of(dronecan::NodeId id, Time since) const {
+    return commands_.saver_of(id, since);
+  }
+
+  /// Another node that commanded this servo to move after `since`, as far as heard.
   [[nodiscard]] std::optional<dronecan::NodeId> commander_of(const Servo& servo, Time since) const;
 
   /// As CommandWatch::commander_of_id().

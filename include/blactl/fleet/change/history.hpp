@@ -7,6 +7,7 @@
 #include "blactl/fleet/bus/session.hpp"
 #include "blactl/fleet/change/plan.hpp"
 #include "blactl/fleet/change/result.hpp"
+#include "blactl/fleet/change/survey.hpp"
 #include "blactl/state/proof_store.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
@@ -18,6 +19,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace blactl::fleet {
 
@@ -116,6 +118,10 @@ class History {
   /// What its ROM holds, as far as proven, else as far as recorded.
   [[nodiscard]] bla::Values known_rom(const Snapshot& ram, const Session& session);
 
+  /// The units that wait for a node ID, and whose ROM held a static one when it was last proven:
+  /// none changes it without SAVE. Empty also if the record cannot be read.
+  [[nodiscard]] std::vector<Waiting> waiting(const Roster& roster) const;
+
   /// Empty: none, or they were changed on purpose since.
   [[nodiscard]] LostIds lost_ids(const Snapshot& ram, const Session& session) const;
 
@@ -200,15 +206,15 @@ class History {
 /// clocks differ by 50 ppm, and are set by a few seconds.
 [[nodiscard]] bool started_before(WallTime started, WallTime at, WallTime now);
 
+/// Likewise, whether it has started after that time, by a clock that nobody has set since.
+[[nodiscard]] bool started_after(WallTime started, WallTime at, WallTime now);
+
 /// No write of this change came later: the servo may have restarted between record and write.
 [[nodiscard]] WallTime last_write(const state::SnapshotEntry& change);
 
 /// Whether RAM holds a value that this change has put there; empty: no register of it was read. One
 /// that it has put back shows nothing.
 [[nodiscard]] std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram);
-/// Likewise, whether it has started after that time, by a clock that nobody has set since.
-[[nodiscard]] bool started_after(WallTime started, WallTime at, WallTime now);
-
 
 /// The settings that this plan replaces, with their present values; all writable ones for ERASE,
 /// and where any may be changed.
