@@ -9,6 +9,7 @@
 #include "blactl/state/registers.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,6 +29,7 @@ struct RomProof {
   /// The wall time at which the clock that waits (CLOCK_MONOTONIC) was 0: another one once the wall
   /// clock was set, or the machine slept.
   WallTime clock{};
+  std::optional<std::int64_t> serial_number{}; ///< of the unit; empty: it did not tell it
 
   friend bool operator==(const RomProof&, const RomProof&) = default;
 };

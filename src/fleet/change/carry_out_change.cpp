@@ -341,10 +341,10 @@ std::vector<Error> Change::refusals_after_restart(std::vector<Error> errors) {
 
 /// Servos that an earlier try has done need nothing now, but are part of the change.
 void Change::go_on_with_record() {
-  std::vector<dronecan::UniqueId> units;
+  std::vector<Servo> units;
   for (const GoalResult& result : results_) {
     if (result.goal.saves() && result.servo().unique_id) {
-      units.push_back(*result.servo().unique_id);
+      units.push_back(result.servo());
     }
   }
   if (options_.manner.history != nullptr) { // on failure the record itself will tell

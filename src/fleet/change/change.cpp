@@ -86,6 +86,9 @@ std::optional<Error> Change::refuse(const Goal& goal, const Snapshot& held) cons
   if (!held.error && goal.unique_id && held.servo.unique_id != goal.unique_id) {
     return Error{Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id};
   }
+  if (!held.error && has_other_serial(held.servo, goal.serial_number)) {
+    return other_serial(held.servo, *goal.serial_number);
+  }
   const auto error = goal.evidence != Evidence::none ? held.first_error() : std::nullopt;
   return error ? error : check_unit(goal.wanted.assignments, held, profiles_);
 }

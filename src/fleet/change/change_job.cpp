@@ -366,13 +366,9 @@ std::optional<Error> ChangeJob::of_another_unit(const Snapshot& now) const {
   if (now.servo.unique_id && servo_.unique_id && now.servo.unique_id != servo_.unique_id) {
     return Error{Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id};
   }
-  const auto serial = now.servo.identity.readings().serial_number;
   const auto before = plan_.before.servo.identity.readings().serial_number;
-  return serial && before && serial != before
-             ? std::optional(Error{Code::duplicate_unique_id,
-                                   say<texts::other_serial>(id, *serial, *before),
-                                   say<texts::doubled_unique_id_hint>(), id})
-             : std::nullopt;
+  return has_other_serial(now.servo, before) ? std::optional(other_serial(now.servo, *before))
+                                             : std::nullopt;
 }
 
 /// Whether it has restarted once more behind a silence: what others wrote to RAM since then was not

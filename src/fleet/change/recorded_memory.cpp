@@ -162,7 +162,8 @@ std::optional<state::RomProof> History::proof(const Servo& servo, const Session&
   const auto proof = proofs_.find(*servo.unique_id);
   const std::chrono::seconds uptime(member.status->uptime_s);
   const WallTime told = told_at(member, session);
-  if (!proof || !*proof || !state::holds(**proof, uptime, told, clock_of(session))) {
+  if (!proof || !*proof || has_other_serial(servo, (*proof)->serial_number) ||
+      !state::holds(**proof, uptime, told, clock_of(session))) {
     return std::nullopt;
   }
   if (uptime - (*proof)->uptime > worth_renewing) {
@@ -198,6 +199,10 @@ bool History::is_in_rom(const state::SnapshotEntry& change) const {
   return change.saved && (change.settled || is_of_this_command);
 }
 
+Result<std::optional<state::SnapshotEntry>> History::last_of(const Servo& servo) const {
+  return snapshots_.last(*servo.unique_id, servo.identity.readings().serial_number);
+}
+
 std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Session& session,
                                                    const Snapshot* ram) const {
   std::vector<state::SnapshotEntry> entries;
@@ -205,7 +210,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
   if (!started) {
     return entries;
   }
-  auto entry = snapshots_.last(*servo.unique_id);
+  auto entry = last_of(servo);
   while (entry && *entry && !is_in_rom(**entry)) {
     Entries changes{std::move(**entry)};
     entry = snapshots_.before(changes.back());
@@ -269,7 +274,7 @@ bla::Values History::known_rom(const Snapshot& ram, const Session& session) {
 LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
   const bool lacks_one =
       std::ranges::any_of(ids, [&](bla::Address id) { return ram.raw(id) == 0; });
-  auto entry = ram.servo.unique_id && lacks_one ? snapshots_.last(*ram.servo.unique_id)
+  auto entry = ram.servo.unique_id && lacks_one ? last_of(ram.servo)
                                                 : Result<std::optional<state::SnapshotEntry>>();
   Addresses since; // changed on purpose
   for (; entry && *entry; entry = snapshots_.before(**entry)) {

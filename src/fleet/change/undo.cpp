@@ -252,8 +252,9 @@ Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::
 }
 
 Result<std::optional<Undoing>> last_change(const state::SnapshotStore& store,
-                                           const dronecan::UniqueId& unique_id) {
-  auto last = store.last(unique_id);
+                                           const dronecan::UniqueId& unique_id,
+                                           std::optional<std::int64_t> serial_number) {
+  auto last = store.last(unique_id, serial_number);
   if (!last) {
     return std::unexpected(std::move(last.error()));
   }
@@ -269,7 +270,7 @@ Result<std::vector<Undoing>> last_changes(const state::SnapshotStore& store) {
     std::erase_if(*entries, std::not_fn(is_unfinished_undo));
   }
   for (auto entry = entries->begin(); entry != entries->end();) { // changed by others since
-    const auto last = store.last(entry->unique_id);
+    const auto last = store.last(entry->unique_id, entry->serial_number);
     if (!last) {
       return std::unexpected(last.error());
     }
@@ -306,9 +307,16 @@ Result<std::vector<Undoing>> changes_since(const state::SnapshotStore& store, st
     return fail(Code::not_found, say<texts::no_command_with_number>(run),
                 say<texts::no_command_with_number_hint>());
   }
-  std::map<dronecan::UniqueId, Tries> by_unit;
+  std::map<dronecan::UniqueId, std::int64_t> last_serials; // that older versions did not record
+  for (const state::SnapshotEntry& entry : *entries) {
+    if (entry.serial_number) {
+      last_serials.emplace(entry.unique_id, *entry.serial_number);
+    }
+  }
+  std::map<std::pair<dronecan::UniqueId, std::int64_t>, Tries> by_unit;
   for (auto entry = entries->begin(); entry != first.base(); ++entry) {
-    by_unit[entry->unique_id].push_back(std::move(*entry));
+    const auto serial = entry->serial_number.value_or(last_serials[entry->unique_id]);
+    by_unit[{entry->unique_id, serial}].push_back(std::move(*entry));
   }
   std::vector<Undoing> changes;
   for (Tries& each : by_unit | std::views::values) {

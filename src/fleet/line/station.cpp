@@ -143,8 +143,7 @@ Result<Station::Past> Station::past_of(const Servo& servo) const {
       past.is_finished = past.is_finished && !may_have_written(record);
       return true;
     }
-    const auto serial = servo.identity.readings().serial_number;
-    if (record.serial_number && serial && record.serial_number != serial) {
+    if (has_other_serial(servo, record.serial_number)) {
       past.other_serial = record.serial_number;
     }
     const bool counts = record.verdict == verdict::pass || record.verdict == verdict::fail ||

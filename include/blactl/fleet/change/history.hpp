@@ -58,7 +58,7 @@ class History {
 
   /// Before all: of the units that this command is to save, also those that need nothing. If some
   /// of them are left from tries of it that failed, this command goes on with all of these.
-  [[nodiscard]] Result<void> go_on(std::span<const dronecan::UniqueId> units, WallTime now);
+  [[nodiscard]] Result<void> go_on(std::span<const Servo> units, WallTime now);
 
   /// Before the first request of a round: removes the proofs of ROM of servos that restart or are
   /// erased in it, which become outdated.
@@ -140,8 +140,7 @@ class History {
   [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan, const Roms& roms,
                                                              const Session& session);
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
-  [[nodiscard]] state::SnapshotEntry new_entry(const dronecan::UniqueId& unit,
-                                               const Session& session) const;
+  [[nodiscard]] state::SnapshotEntry new_entry(const Servo& servo, const Session& session) const;
   [[nodiscard]] Result<void> store(std::vector<state::SnapshotEntry> entries, WallTime now);
   [[nodiscard]] Result<void> keep_what_was_taken(std::span<const ChangeResult> results,
                                                  const Session& session);
@@ -150,8 +149,8 @@ class History {
   struct Settled;
   void settle(const ChangeResult& result, WallTime wall, Settled& settled);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results, WallTime wall);
-  [[nodiscard]] Result<std::optional<state::SnapshotEntry>>
-  unfinished(const dronecan::UniqueId& unit) const;
+  [[nodiscard]] Result<std::optional<state::SnapshotEntry>> last_of(const Servo& servo) const;
+  [[nodiscard]] Result<std::optional<state::SnapshotEntry>> unfinished(const Servo& servo) const;
   [[nodiscard]] Result<void> gather(std::span<const state::SnapshotEntry> tries, WallTime now);
   [[nodiscard]] Result<void> resume(const Plan& plan, const Session& session);
   [[nodiscard]] static bool is_over(const state::SnapshotEntry& tried, const Snapshot& ram,

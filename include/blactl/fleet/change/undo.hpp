@@ -48,8 +48,9 @@ struct Undoing {
 
 /// The last change of this unit; empty: none is known. For an undo that did not end, the change
 /// that it was to undo. Errors: those of the store.
-[[nodiscard]] Result<std::optional<Undoing>> last_change(const state::SnapshotStore& store,
-                                                         const dronecan::UniqueId& unique_id);
+[[nodiscard]] Result<std::optional<Undoing>>
+last_change(const state::SnapshotStore& store, const dronecan::UniqueId& unique_id,
+            std::optional<std::int64_t> serial_number = std::nullopt);
 
 /// The changes of the last command; if that is an undo which did not end, those still to be undone.
 /// Errors: those of the store.
