@@ -268,6 +268,14 @@ Result<std::vector<UniqueId>> CounterStore::units(const std::string& recipe,
   return read ? Result<std::vector<UniqueId>>(std::move(units)) : std::unexpected(read.error());
 }
 
+bool CounterStore::is_there() const {
+  return file_->database() != nullptr;
+}
+
+Result<void> CounterStore::check() const {
+  return file_->check();
+}
+
 Result<void> CounterStore::back_up(const std::string& file) const {
   return file_->copy_to(file);
 }

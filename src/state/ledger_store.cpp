@@ -306,6 +306,10 @@ LedgerStore::begun(const std::optional<std::string>& station) const {
               : std::unexpected(read.error());
 }
 
+bool LedgerStore::is_there() const {
+  return file_->database() != nullptr;
+}
+
 Result<std::vector<LedgerHole>> LedgerStore::holes() const {
   std::vector<LedgerHole> holes;
   const Database* database = file_->database();

@@ -30,25 +30,28 @@ const std::string end_columns = "saved INTEGER NOT NULL CHECK (saved IN (0, 1)),
 const std::string settled_column =
     "settled INTEGER CHECK (settled BETWEEN 0 AND 253402300799999999), ";
 
+const std::string snapshot_clock_columns =
+    "clock INTEGER CHECK (clock BETWEEN -253402300799999999 AND 253402300799999999), "
+    "boot TEXT NOT NULL, ";
+
 /// Changes are ordered by number, not by time: clocks are set back. The index repeats whole rows,
 /// so the check of the file detects any change. `at`: microseconds since 1970, UTC, up to the year
 /// 9999. `clock`: see SnapshotEntry. `boot`: of the machine.
 const std::string snapshots_schema =
     "CREATE TABLE snapshots (" + change_columns + "written BLOB NOT NULL, " + end_columns +
-    settled_column +
-    "clock INTEGER CHECK (clock BETWEEN -253402300799999999 AND 253402300799999999), "
-    "boot TEXT NOT NULL, "
+    settled_column + snapshot_clock_columns +
+    "serial_number INTEGER, "
     "UNIQUE (unique_id, number, run, at, command, held, written, saved, ended, settled, clock, "
-    "boot)) STRICT";
+    "boot, serial_number)) STRICT";
 
-/// `written`, `settled`: as the present table has them, of a row of the older one.
+/// The others: as the present table has them, of a row of the older one.
 OlderFormat older_snapshots(const std::string& older_schema, const std::string& written,
-                            const std::string& settled) {
+                            const std::string& settled, const std::string& clock = "NULL, ''") {
   return {.schema = older_schema,
           .upgrade = "ALTER TABLE snapshots RENAME TO older; " + snapshots_schema +
                      "; INSERT INTO snapshots SELECT number, run, at, command, unique_id, held, " +
-                     written + ", saved, ended, " + settled +
-                     ", NULL, '' FROM older; DROP TABLE older"};
+                     written + ", saved, ended, " + settled + ", " + clock +
+                     ", NULL FROM older; DROP TABLE older"};
 }
 
 const std::string settled_if_saved = "CASE saved WHEN 1 THEN at END";
@@ -78,26 +81,38 @@ OlderFormat snapshots_of_version_3() {
                          "written", "settled");
 }
 
+/// It did not tell a unit from another with its unique ID.
+OlderFormat snapshots_of_version_4() {
+  return older_snapshots("CREATE TABLE snapshots (" + change_columns + "written BLOB NOT NULL, " +
+                             end_columns + settled_column + snapshot_clock_columns +
+                             "UNIQUE (unique_id, number, run, at, command, held, written, saved, "
+                             "ended, settled, clock, boot)) STRICT",
+                         "written", "settled", "clock, boot");
+}
+
 } // namespace
 
 const DatabaseFormat& snapshots_format() {
-  static const DatabaseFormat format{
-      .application_id = 0x626C6173, // "blas"
-      .version = 4,
-      .schema = snapshots_schema,
-      .file = "snapshots.db",
-      .what = texts::change_history,
-      .way_back = texts::change_history_back,
-      .older = {snapshots_of_version_1(), snapshots_of_version_2(), snapshots_of_version_3()}};
+  static const DatabaseFormat format{.application_id = 0x626C6173, // "blas"
+                                     .version = 5,
+                                     .schema = snapshots_schema,
+                                     .file = "snapshots.db",
+                                     .what = texts::change_history,
+                                     .way_back = texts::change_history_back,
+                                     .older = {snapshots_of_version_1(), snapshots_of_version_2(),
+                                               snapshots_of_version_3(), snapshots_of_version_4()}};
   return format;
 }
 
 namespace {
 
+/// Of those with one unique ID, the entries of the unit with the serial number ?2, as far as known.
+const std::string of_unit = "(?2 IS NULL OR serial_number IS NULL OR serial_number = ?2)";
+
 /// A query for the columns that snapshot_in() reads.
 std::string select(std::string_view rest) {
   return "SELECT number, at, command, unique_id, held, saved, run, ended, written, "
-         "settled, clock, boot FROM snapshots " +
+         "settled, clock, boot, serial_number FROM snapshots " +
          std::string(rest);
 }
 
@@ -117,7 +132,8 @@ SnapshotEntry snapshot_in(Statement& row) {
                          : std::optional(WallTime(Duration(row.integer(9, 0, last_time)))),
           .clock = row.is_null(10) || !is_of_this_boot
                        ? std::nullopt
-                       : std::optional(WallTime(Duration(row.integer(10, -last_time, last_time))))};
+                       : std::optional(WallTime(Duration(row.integer(10, -last_time, last_time)))),
+          .serial_number = row.is_null(12) ? std::nullopt : std::optional(row.integer(12))};
 }
 
 /// Every row of a statement.
@@ -137,6 +153,10 @@ Result<std::int64_t> next_number(const Database& database) {
   return read ? Result<std::int64_t>(row.integer(0)) : std::unexpected(read.error());
 }
 
+Statement& bind_serial(Statement& statement, std::optional<std::int64_t> number) {
+  return number ? statement.bind(*number) : statement.bind(std::nullopt);
+}
+
 /// Stores one entry and returns its number.
 Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& entry,
                               std::int64_t new_run) {
@@ -145,7 +165,7 @@ Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& ent
   Statement statement(database,
                       "INSERT OR REPLACE INTO snapshots "
                       "(number, run, at, command, unique_id, held, written, saved, ended, settled, "
-                      "clock, boot) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                      "clock, boot, serial_number) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   entry.number == 0 ? statement.bind(std::nullopt) : statement.bind(entry.number);
   statement.bind(entry.run == 0 ? new_run : entry.run)
       .bind(entry.at.time_since_epoch().count())
@@ -159,7 +179,8 @@ Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& ent
                 : statement.bind(std::nullopt);
   entry.clock ? statement.bind(entry.clock->time_since_epoch().count())
               : statement.bind(std::nullopt);
-  const auto kept = statement.bind(boot_id()).run();
+  statement.bind(boot_id());
+  const auto kept = bind_serial(statement, entry.serial_number).run();
   return kept ? Result<std::int64_t>(sqlite3_last_insert_rowid(database.handle()))
               : std::unexpected(kept.error());
 }
@@ -283,13 +304,17 @@ Result<void> SnapshotStore::end(std::span<const UniqueId> units, std::string_vie
   });
 }
 
-Result<std::optional<SnapshotEntry>> SnapshotStore::last(const UniqueId& unique_id) const {
+Result<std::optional<SnapshotEntry>>
+SnapshotStore::last(const UniqueId& unique_id, std::optional<std::int64_t> serial_number) const {
   const Database* database = file_->database();
   if (database == nullptr) {
     return std::nullopt;
   }
-  Statement statement(*database, select("WHERE unique_id = ? ORDER BY number DESC LIMIT 1"));
-  return statement.bind(unique_id).first([&] { return snapshot_in(statement); });
+  Statement statement(
+      *database, select("WHERE unique_id = ?1 AND " + of_unit + " ORDER BY number DESC LIMIT 1"));
+  return bind_serial(statement.bind(unique_id), serial_number).first([&] {
+    return snapshot_in(statement);
+  });
 }
 
 Result<std::optional<SnapshotEntry>> SnapshotStore::before(const SnapshotEntry& entry) const {
@@ -297,11 +322,11 @@ Result<std::optional<SnapshotEntry>> SnapshotStore::before(const SnapshotEntry& 
   if (database == nullptr) {
     return std::nullopt;
   }
-  Statement statement(*database,
-                      select("WHERE unique_id = ? AND number < ? ORDER BY number DESC LIMIT 1"));
-  return statement.bind(entry.unique_id).bind(entry.number).first([&] {
-    return snapshot_in(statement);
-  });
+  Statement statement(*database, select("WHERE unique_id = ?1 AND " + of_unit +
+                                        " AND number < ?3 ORDER BY number DESC LIMIT 1"));
+  return bind_serial(statement.bind(entry.unique_id), entry.serial_number)
+      .bind(entry.number)
+      .first([&] { return snapshot_in(statement); });
 }
 
 Result<std::vector<SnapshotEntry>> SnapshotStore::last_run() const {

@@ -209,6 +209,23 @@ TEST_CASE("a node ID that another servo's ROM holds, though it runs under anothe
   }
 }
 
+TEST_CASE("a node ID in the ROM of a unit that waits for one, as proven before, is not given") {
+  const Fleet fleet(Scene()
+                        .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                        .servo("BLA21-12U-AB", 12, {{"serial_number", 2}})
+                        .event(1, "rom_error", "60s"));
+  REQUIRE(fleet.run({"set", "-n", "11", "smoothing=off", "--save", "-y"}).status == 0); // proven
+  REQUIRE(fleet.run({"monitor", "-n", "12", "--duration", "70"}).status == 0);
+  for (const Arguments& arguments :
+       {Arguments{"set", "-n", "12", "static_node_id=11", "-y", "--save", "--json"},
+        Arguments{"set", "-n", "12", "static_node_id=11", "-y", "--json"},
+        Arguments{"alloc", "--static", "-n", "12", "--id", "11", "-y", "--json"}}) {
+    check_error(fleet.run(arguments), 9, "duplicate_node_id",
+                "node 12 would have node ID 11, which is in the ROM of a unit that waits for one");
+  }
+  CHECK(fleet.run({"set", "-n", "12", "static_node_id=20", "-y", "--save"}).status == 0);
+}
+
 TEST_CASE(
     "a servo that is exchanged while it is looked for is not taken for the one that is meant") {
   constexpr int meant = 240900001, other = 240900002;
@@ -230,6 +247,24 @@ TEST_CASE(
     }
   }
   CHECK(refused > 0);
+}
+
+TEST_CASE("a servo ID that another servo has come with since is not saved") {
+  const Fleet fleet(Scene()
+                        .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"servo_id", 1}})
+                        .servo("BLA21-12U-AB", 12, {{"serial_number", 2}, {"servo_id", 2}})
+                        .servo("BLA21-12U-AB", 13, {{"serial_number", 3}, {"servo_id", 40}})
+                        .joins(3, "2600ms"));
+  const Result applied =
+      fleet.apply({{"schema", "blactl-fleet/1"},
+                   {"servos",
+                    {{{"name", "a"}, {"match", {{"node_id", 11}}}, {"set", {{"smoothing", "off"}}}},
+                     {{"name", "b"}, {"match", {{"node_id", 12}}}, {"set", {{"servo_id", 40}}}}}}},
+                  {"--stagger", "3"});
+  INFO(applied.err);
+  CHECK(applied.status == 6);
+  CHECK(contains(applied.err, "servo ID 40"));
+  CHECK(fleet.rom("12", "servo_id") == 2);
 }
 
 TEST_CASE("a servo ID that is heard from a node that does not answer is not given") {

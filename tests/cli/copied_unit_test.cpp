@@ -154,6 +154,26 @@ TEST_CASE("a servo is not restarted while a unit with its unique ID asks for a n
   CHECK(fleet.run({"set", "-n", "11", "smoothing=off", "-y"}).status == 0);
 }
 
+TEST_CASE("the history of one unit is not that of another with its unique ID") {
+  const std::string copied = "abababababababababababababababab";
+  const Fleet fleet(
+      Scene()
+          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"unique_id", copied}})
+          .servo(
+              "BLA21-12U-AB", 11,
+              {{"serial_number", 2}, {"unique_id", copied}, {"rom", {{"angle_limit_cw", "60deg"}}}})
+          .event(1, "power_off", "60s")
+          .joins(2, "80s"));
+  REQUIRE(fleet.run({"set", "-n", "11", "angle_limit_cw=45deg", "--save", "-y"}).status == 0);
+  REQUIRE(fleet.run({"monitor", "-n", "11", "--duration", "90"}).status == 0);
+  check_error(fleet.run({"undo", "-y"}), 9, "duplicate_unique_id", "serial number: 2, not 1");
+  CHECK(codes(fleet.run({"undo", "-n", "11", "-y"})) == std::vector<std::string>{"not_found"});
+  CHECK(fleet.ram("11", "angle_limit_cw") == 600);
+  REQUIRE(fleet.run({"set", "-n", "11", "angle_limit_cw=50deg", "-y"}).status == 0);
+  CHECK(fleet.run({"undo", "-n", "11", "-y"}).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 600);
+}
+
 TEST_CASE("a unit that asks, and whose unique ID only begins like that of a servo, is another") {
   Fleet fleet(Scene()
                   .servo("BLA21-12U-AB", 11, {{"unique_id", "abababababababababababababababab"}})

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 using namespace blactl::test;
 
@@ -72,6 +73,56 @@ TEST_CASE("a damaged table of IDs says how it comes back without giving IDs twic
   CHECK(codes(run) == std::vector<std::string>{"bad_file"});
   CHECK(contains(run.err, "ledger --backup"));
   CHECK_FALSE(contains(run.err, "begin with their first ID again"));
+}
+
+TEST_CASE("the check of the ledger tells a file that was lost or damaged") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 3000}});
+  CHECK(hall.run({"ledger", "--check"}).status == 0); // nothing was made yet
+  REQUIRE(hall.provision({"--count", "1"}).status == 0);
+  REQUIRE(hall.run({"ledger", "--check"}).status == 0);
+  const fs::path table = counters_of(hall), ledger = fs::path(table).replace_filename("ledger.db");
+  const auto check = [&](const std::string& code, const std::string& file) {
+    const Result checked = hall.run({"ledger", "--check"});
+    INFO(checked.out << checked.err);
+    CHECK(checked.status != 0);
+    CHECK(codes(checked) == std::vector{code});
+    CHECK(contains(checked.err, file));
+    CHECK_FALSE(contains(checked.out, "complete"));
+  };
+  fs::copy_file(table, hall.bench().folder() / "table");
+  fs::remove(table);
+  check("state", "counters.db is not there");
+  const std::string copy = (hall.bench().folder() / "copy").string();
+  for (int i = 0; i < 2; ++i) { // the second time as the first
+    CHECK(codes(hall.run({"ledger", "--backup", copy})) == std::vector<std::string>{"state"});
+  }
+  fs::copy_file(hall.bench().folder() / "table", table);
+  fs::resize_file(table, 5000);
+  check("bad_file", "counters.db");
+  fs::copy_file(hall.bench().folder() / "table", table, fs::copy_options::overwrite_existing);
+  CHECK(hall.run({"ledger", "--check"}).status == 0);
+  fs::remove(ledger);
+  check("state", "ledger.db is not there");
+}
+
+TEST_CASE("IDs by labels are not given while the table of IDs is lost") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 20}, {.serial = 102, .from = 25, .to = 3000}});
+  const std::string recipe = hall.bench().file(
+      "labels.json", R"({"schema": "blactl-recipe/1", "name": "labels", "model": "BLA21-12U-AB",
+                         "set": {"angle_limit_cw": "45.0deg"}})");
+  const auto labelled = [&](const char* label) {
+    return hall.run({"provision", recipe, "-y", "--json", "--count", "1", "--label", "-"},
+                    {.stdin_text = label});
+  };
+  REQUIRE(labelled(R"({"serial_number": 101, "servo_id": 7})").status == 0);
+  fs::remove(counters_of(hall));
+  for (int i = 0; i < 2; ++i) { // no new table is made
+    const Result run = labelled(R"({"serial_number": 102, "servo_id": 7})");
+    INFO(run.out << run.err);
+    CHECK(codes(run) == std::vector<std::string>{"state"});
+    CHECK(contains(run.err, "counters.db is not there"));
+    CHECK(json_lines(run.out).size() == 1); // no record
+  }
 }
 
 TEST_CASE("both files of a copy are new ones") {

@@ -322,6 +322,37 @@ TEST_CASE("a recipe that has changed, or a unit that was begun anew, is no reaso
   CHECK(record["changed_count"] == 1);
 }
 
+TEST_CASE(
+    "a unit that another recipe has changed since, or whose label tells other IDs, is no skip") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 3000}});
+  REQUIRE(hall.provision({"--count", "1"}).status == 0);
+  SECTION("another recipe") {
+    std::string other = line_recipe;
+    other.replace(other.find("aileron"), 7, "rudder1");
+    other.replace(other.find("45.0deg"), 7, "40.0deg");
+    const std::string file = hall.bench().file("other.json", other);
+    REQUIRE(hall.run({"provision", file, "-y", "--station", "A", "--count", "1"}).status == 0);
+    const auto again = json_lines(hall.provision({"--count", "1"}).out)[0];
+    CHECK(again["verdict"] == "pass");
+    CHECK(again["attempt"] == 2);
+    CHECK(again["servo_id"] == 1); // it keeps its IDs
+    CHECK(again["changed_count"] == 1);
+    CHECK(json_lines(hall.provision({"--count", "1"}).out)[0]["verdict"] == "skip");
+  }
+  SECTION("a label") {
+    const auto labelled = [&](const char* label) {
+      return json_lines(hall.run({"provision", hall.recipe_file(), "-y", "--json", "--station", "A",
+                                  "--count", "1", "--label", "-"},
+                                 {.stdin_text = label})
+                            .out)[0];
+    };
+    CHECK(labelled(R"({"serial_number": 101, "servo_id": 1})")["verdict"] == "skip");
+    const auto other = labelled(R"({"serial_number": 101, "servo_id": 7})");
+    CHECK(other["verdict"] == "fail");
+    CHECK(other["code"] == "label_mismatch");
+  }
+}
+
 TEST_CASE("undo takes back what provision changed") {
   const Hall hall({{.serial = 101, .from = 1, .to = 3000, .node_id = 20}});
   REQUIRE(hall.run({"wait", "-n", "20"}).status == 0);

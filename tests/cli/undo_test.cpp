@@ -461,3 +461,16 @@ TEST_CASE(
   }
   CHECK(fleet.rom("13", "angle_p_gain") == 60);
 }
+
+TEST_CASE("undo of a change in RAM that another tool has saved since puts ROM back, too") {
+  const Fleet fleet(three_servos());
+  const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  set(fleet, {"-n", "11", "angle_limit_cw=45deg"});
+  REQUIRE(fleet.run({"monitor", "-n", "11", "--duration", "20"}).status == 0);
+  REQUIRE(fleet.run({"save", "-n", "11", "-y"}, other).status == 0);
+  const Result undone = undo(fleet);
+  INFO(undone.out << undone.err);
+  CHECK(undone.status == 0);
+  CHECK(json(undone.out)["nodes"][0]["saved"] == true);
+  CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
+}

@@ -71,6 +71,12 @@ class CounterStore {
   [[nodiscard]] Result<std::vector<dronecan::UniqueId>> units(const std::string& recipe,
                                                               const std::string& parameter) const;
 
+  /// Whether there is a table: open() to read makes none.
+  [[nodiscard]] bool is_there() const;
+
+  /// Reads all of it. Errors: as check_state_files().
+  [[nodiscard]] Result<void> check() const;
+
   /// Copies the whole table, of one moment, into a new file. Further errors: io: it cannot be
   /// written, or is there already; state: there is nothing to copy.
   [[nodiscard]] Result<void> back_up(const std::string& file) const;

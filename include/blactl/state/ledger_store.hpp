@@ -85,6 +85,9 @@ class LedgerStore {
   [[nodiscard]] Result<std::vector<LedgerRecord>>
   begun(const std::optional<std::string>& station = {}) const;
 
+  /// Whether there is a ledger: open() to read makes none.
+  [[nodiscard]] bool is_there() const;
+
   /// The holes in the numbers of all stations. Further errors: as check_state_files().
   [[nodiscard]] Result<std::vector<LedgerHole>> holes() const;
 

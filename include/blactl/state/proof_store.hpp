@@ -9,10 +9,12 @@
 #include "blactl/state/registers.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace blactl::state {
 
@@ -27,6 +29,7 @@ struct RomProof {
   /// The wall time at which the clock that waits (CLOCK_MONOTONIC) was 0: another one once the wall
   /// clock was set, or the machine slept.
   WallTime clock{};
+  std::optional<std::int64_t> serial_number{}; ///< of the unit; empty: it did not tell it
 
   friend bool operator==(const RomProof&, const RomProof&) = default;
 };
@@ -80,6 +83,9 @@ class ProofStore {
   /// The proof of a unit, to be checked with holds(); empty: its ROM is unknown. What was proven
   /// before this machine started is not: its clock may have begun anew at the same time.
   [[nodiscard]] Result<std::optional<RomProof>> find(const dronecan::UniqueId& unique_id) const;
+
+  /// All proofs, also those of before this machine started: what ROM held then.
+  [[nodiscard]] Result<std::vector<RomProof>> proofs() const;
 
   /// Removes all proofs.
   [[nodiscard]] Result<void> clear();

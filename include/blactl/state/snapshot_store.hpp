@@ -35,6 +35,8 @@ struct SnapshotEntry {
   std::optional<WallTime> settled{}; ///< when its outcome was known; empty: not yet, or never
   /// As RomProof::clock, at `at`. Empty: not known, or of an earlier run of this machine.
   std::optional<WallTime> clock{};
+  /// Of the unit: one with another number is another unit. Empty: it did not tell it.
+  std::optional<std::int64_t> serial_number{};
 
   friend bool operator==(const SnapshotEntry&, const SnapshotEntry&) = default;
 };
@@ -100,9 +102,11 @@ class SnapshotStore {
   [[nodiscard]] Result<void> end(std::span<const dronecan::UniqueId> units,
                                  std::string_view command);
 
-  /// The last change of this unit; empty: none.
+  /// The last change of this unit; empty: none. Without a serial number: of any with this unique
+  /// ID.
   [[nodiscard]] Result<std::optional<SnapshotEntry>>
-  last(const dronecan::UniqueId& unique_id) const;
+  last(const dronecan::UniqueId& unique_id,
+       std::optional<std::int64_t> serial_number = std::nullopt) const;
 
   /// The change of the same unit before this one; empty: none.
   [[nodiscard]] Result<std::optional<SnapshotEntry>> before(const SnapshotEntry& entry) const;

@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/confirm.hpp"
 #include "cli/context.hpp"
+#include "cli/line/line_stores.hpp"
 #include "cli/line/record_view.hpp"
 #include "cli/line/station_name.hpp"
 #include "cli/line/texts.hpp"
@@ -194,7 +195,18 @@ void write_begun(JsonWriter& json, const LedgerRecord& record) {
   json.member("station", record.station);
 }
 
-Report check(const LedgerStore& store) {
+/// Whether both files are there and whole.
+Result<void> check_files(const LedgerStore& store, std::string_view interface) {
+  const auto counters = open_counters(interface, state::Access::read);
+  const auto complete =
+      counters ? check_line_stores(store, *counters, interface) : std::unexpected(counters.error());
+  return complete ? counters->check() : complete;
+}
+
+Report check(const LedgerStore& store, std::string_view interface) {
+  if (const auto checked = check_files(store, interface); !checked) {
+    return failed(checked.error());
+  }
   const auto holes = store.holes();
   const auto begun =
       holes ? store.begun() : Result<std::vector<LedgerRecord>>(std::unexpected(holes.error()));
@@ -282,6 +294,10 @@ Report back_up(const LedgerOptions& options, const LedgerStore& store, const Con
       counters ? store.back_up(options.backup) : Result<void>(std::unexpected(counters.error()));
   if (copied) {
     copied = counters->back_up(ids);
+    if (!copied) { // no half of a copy stands in the way of the next one
+      std::error_code ignored;
+      std::filesystem::remove(options.backup, ignored);
+    }
   }
   if (!copied) {
     return failed(copied.error());
@@ -300,7 +316,7 @@ Report execute(const LedgerOptions& options, Context& context) {
     return failed(store.error());
   }
   return !options.scrap.empty()    ? scrap(options, *store, context)
-         : options.check           ? check(*store)
+         : options.check           ? check(*store, context.shared().interface)
          : !options.backup.empty() ? back_up(options, *store, context)
                                    : list(options, *store, context);
 }

@@ -112,9 +112,11 @@ void Undo::of_nodes_since(const Whom& whom, Goals& goals) {
     return;
   }
   for (const dronecan::NodeId id : whom.selected) {
-    const auto unit = whom.roster.member(id).servo().unique_id;
-    const auto change = std::ranges::find_if(
-        *changes, [&](const fleet::Undoing& each) { return each.entry.unique_id == unit; });
+    const fleet::Servo servo = whom.roster.member(id).servo();
+    const auto change = std::ranges::find_if(*changes, [&](const fleet::Undoing& each) {
+      return each.entry.unique_id == servo.unique_id &&
+             !fleet::has_other_serial(servo, each.entry.serial_number);
+    });
     if (change != changes->end()) {
       take_back(*change, id, goals);
     } else {
@@ -163,9 +165,10 @@ void Undo::of_all(const Whom& whom, Goals& goals) {
 }
 
 void Undo::of_node(dronecan::NodeId id, const Whom& whom, Goals& goals) {
-  const auto unique_id = whom.roster.member(id).servo().unique_id;
-  const auto change =
-      unique_id ? fleet::last_change(store_, *unique_id) : Result<std::optional<fleet::Undoing>>();
+  const fleet::Servo servo = whom.roster.member(id).servo();
+  const auto change = servo.unique_id ? fleet::last_change(store_, *servo.unique_id,
+                                                           servo.identity.readings().serial_number)
+                                      : Result<std::optional<fleet::Undoing>>();
   if (!change) {
     goals.errors.push_back(change.error());
   } else if (*change) {
@@ -208,6 +211,7 @@ void Undo::take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& g
   }
   goals.goals.push_back({.id = id,
                          .unique_id = entry.unique_id,
+                         .serial_number = entry.serial_number,
                          .wanted = std::move(*wanted),
                          .evidence = fleet::Evidence::restart});
 }

@@ -8,6 +8,7 @@
 
 #include "cli/alloc/options.hpp"
 #include "cli/interface/scheme.hpp"
+#include "cli/line/line_stores.hpp"
 #include "cli/line/record_view.hpp"
 #include "cli/line/station_name.hpp"
 #include "cli/line/texts.hpp"
@@ -89,7 +90,23 @@ Station::Options ProvisionRun::station_options() {
   return station;
 }
 
+/// Whether one of the stores was lost: opened to write, it would begin anew.
+Result<void> ProvisionRun::check_stores() const {
+  const std::string& interface = context_.shared().interface;
+  const auto counters = open_counters(interface, state::Access::read);
+  if (!counters) {
+    return std::unexpected(counters.error());
+  }
+  const auto ledger = open_ledger(interface, state::Access::read);
+  return ledger ? check_line_stores(*ledger, *counters, interface)
+                : std::unexpected(ledger.error());
+}
+
 void ProvisionRun::run() {
+  if (const auto complete = check_stores(); !complete) {
+    stop(complete.error());
+    return;
+  }
   auto ledger = open_ledger(context_.shared().interface, state::Access::write);
   auto counters = ledger ? open_counters(context_.shared().interface, state::Access::write)
                          : Result<state::CounterStore>(std::unexpected(ledger.error()));

@@ -52,6 +52,7 @@ class ProvisionRun : private WritingRun {
                                                          const fleet::Recipe& recipe,
                                                          std::string recipe_sha256);
   [[nodiscard]] fleet::Station::Options station_options();
+  [[nodiscard]] Result<void> check_stores() const;
   [[nodiscard]] bool begin();
   void serve(state::LedgerStore& ledger, state::CounterStore& counters);
   [[nodiscard]] bool next(fleet::Station& station);

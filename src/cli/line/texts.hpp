@@ -100,6 +100,20 @@ inline constexpr Text ledger_scrap_question{
 inline constexpr Text ledger_copied{"the ledger is in {} now, the IDs that were given in {}",
                                     "製造記録を {} に、採番表を {} に保存しました"};
 inline constexpr Text ledger_whole{"the ledger is complete\n", "製造記録に欠落はありません\n"};
+inline constexpr Text counters_lost{
+    "{}/counters.db is not there, which holds the IDs that were given: the same could be given "
+    "twice",
+    "採番表 {}/counters.db がありません。同じ ID を重複して割り当てる恐れがあります"};
+inline constexpr Text counters_lost_hint{
+    "copy the newest FILE.counters that `blactl ledger --backup FILE` made to {}/counters.db",
+    "`blactl ledger --backup FILE` で作成した最新の FILE.counters を {}/counters.db に"
+    "コピーして下さい"};
+inline constexpr Text ledger_lost{
+    "{}/ledger.db is not there, though counters.db holds IDs that were given",
+    "採番表 counters.db はありますが、製造記録 {}/ledger.db がありません"};
+inline constexpr Text ledger_lost_hint{
+    "copy the newest FILE that `blactl ledger --backup FILE` made to {}/ledger.db",
+    "`blactl ledger --backup FILE` で作成した最新の FILE を {}/ledger.db にコピーして下さい"};
 inline constexpr Text ledger_hole{"station {}: the records {} to {} are missing\n",
                                   "ステーション {}: 記録 {}～{} がありません\n"};
 inline constexpr Text ledger_begun{"station {}: {} was begun at {}, and has not ended\n",

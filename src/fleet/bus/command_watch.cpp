@@ -236,6 +236,24 @@ std::optional<NodeId> CommandWatch::setter_of(NodeId id, Time since,
   return std::nullopt;
 }
 
+std::vector<CommandWatch::Written> CommandWatch::written_to(NodeId id, Time since) const {
+  std::vector<Written> all;
+  const auto writes = writes_.find(id);
+  const auto values = repetitions_.find(id);
+  if (writes == writes_.end() || values == repetitions_.end()) {
+    return all;
+  }
+  for (const auto& [reg, write] : writes->second) {
+    const auto value = values->second.find(reg);
+    const auto* raw =
+        value != values->second.end() ? std::get_if<std::int64_t>(&value->second.value) : nullptr;
+    if (reg && raw != nullptr && write.at > since) {
+      all.push_back({*reg, *raw, write.source, write.at});
+    }
+  }
+  return all;
+}
+
 std::optional<NodeId>
 CommandWatch::commander_of(const Servo& servo, std::optional<std::uint8_t> actuator_id,
                            const std::function<bool(const Repeated&)>& matters) const {

@@ -371,6 +371,17 @@ std::optional<NodeId> Roster::giver_of(NodeId given, NodeId except, Time since) 
   return commands_.giver_of(bla::address::static_node_id, given.value(), except, since);
 }
 
+const Member* Roster::newcomer_with(std::int64_t servo_id, Time since, NodeId except,
+                                    const std::set<dronecan::UniqueId>& own) const {
+  for (const auto& [id, member] : members_) {
+    if (id != except && member.actuator_id == servo_id && member.first_heard > since &&
+        !(member.info && own.contains(member.info->unique_id))) {
+      return &member;
+    }
+  }
+  return nullptr;
+}
+
 state::NodeIds Roster::ids_in_use(const dronecan::UniqueId& unit) const {
   state::NodeIds ids;
   ids.set(local_.value());

@@ -185,4 +185,11 @@ Error silent(const Roster& roster, dronecan::NodeId node) {
           say<texts::no_answer_hint>(), id};
 }
 
+Error other_serial(const Servo& servo, std::int64_t serial) {
+  const std::uint8_t id = servo.id.value();
+  return {Code::duplicate_unique_id,
+          say<texts::other_serial>(id, servo.identity.readings().serial_number.value_or(0), serial),
+          say<texts::doubled_unique_id_hint>(), id};
+}
+
 } // namespace blactl::fleet

@@ -179,7 +179,9 @@ CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<con
   }
   RestartPace pace{.distance = manner.stagger,
                    .next = manner.next_restart != nullptr ? *manner.next_restart : Time{},
-                   .stops_at_failure = manner.stops_at_failure};
+                   .stops_at_failure = manner.stops_at_failure,
+                   .own = manner.own,
+                   .surveyed = manner.surveyed};
   ChangeJob::Options options{.identification = manner.identification,
                              .come_back = manner.come_back.value_or(come_back_time(plans)),
                              .pace = &pace,

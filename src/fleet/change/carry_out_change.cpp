@@ -12,6 +12,7 @@
 #include "fleet/change/unnamed.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace blactl::fleet {
@@ -291,6 +292,7 @@ void Change::conclude(const UnitChange& unit, GoalResult& result) {
   if (result.need == Need::prove && last.rom) {
     result.change.warnings =
         unnamed(result.goal, unit.plan.before, {last.rom->values, true}, result.need, true);
+    std::ranges::move(losses(last.warnings), std::back_inserter(result.change.warnings));
   }
 }
 
@@ -340,10 +342,10 @@ std::vector<Error> Change::refusals_after_restart(std::vector<Error> errors) {
 
 /// Servos that an earlier try has done need nothing now, but are part of the change.
 void Change::go_on_with_record() {
-  std::vector<dronecan::UniqueId> units;
+  std::vector<Servo> units;
   for (const GoalResult& result : results_) {
     if (result.goal.saves() && result.servo().unique_id) {
-      units.push_back(*result.servo().unique_id);
+      units.push_back(result.servo());
     }
   }
   if (options_.manner.history != nullptr) { // on failure the record itself will tell

@@ -30,12 +30,6 @@ Wanted wanted(const Goal& goal, Need need) {
                              : goal.wanted;
 }
 
-/// Of the warnings of an earlier round, those of what its restart has taken from RAM.
-std::vector<Warning> losses(std::vector<Warning> warnings) {
-  std::erase_if(warnings, [](const Warning& warning) { return warning.code != "unnamed_lost"; });
-  return warnings;
-}
-
 } // namespace
 
 Change::Change(Session& session, const bla::Profiles& profiles, Options options)
@@ -91,6 +85,9 @@ std::optional<Error> Change::refuse(const Goal& goal, const Snapshot& held) cons
   }
   if (!held.error && goal.unique_id && held.servo.unique_id != goal.unique_id) {
     return Error{Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id};
+  }
+  if (!held.error && has_other_serial(held.servo, goal.serial_number)) {
+    return other_serial(held.servo, *goal.serial_number);
   }
   const auto error = goal.evidence != Evidence::none ? held.first_error() : std::nullopt;
   return error ? error : check_unit(goal.wanted.assignments, held, profiles_);
@@ -192,6 +189,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
       next.lost_ids = std::move(lost.ids);
       if (next.restart == RestartKind::restart) {
         next.rom_servo_id = bla::find(told.values, bla::address::servo_id);
+        next.told_until = session_.now();
       }
       tasks.push_back({std::move(held), std::move(next)});
     }

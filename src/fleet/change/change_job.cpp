@@ -5,8 +5,10 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include "fleet/change/texts.hpp"
+#include "fleet/change/unnamed.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace blactl::fleet {
@@ -141,6 +143,7 @@ std::unique_ptr<SaveRestartJob> ChangeJob::restart() const {
                                   .patience = options_.identification.patience,
                                   .pace = options_.pace,
                                   .expected_free_since = begin_,
+                                  .given_servo_id = plan_.given_servo_id(),
                                   .may_be_driven = may_be_driven(),
                                   .next_servo_id = plan_.rom_servo_id};
   if (given.value_or(0) != 0) {
@@ -315,6 +318,10 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
                           say<texts::restarts_again_hint>(), id};
   }
   result_.may_have_saved = *plan_.restart == RestartKind::save && restart_->may_have_happened();
+  if (plan_.restart == RestartKind::restart && restart_->may_have_happened()) {
+    std::ranges::move(written_before_restart(roster_, plan_, restart_->sent_at()),
+                      std::back_inserter(result_.warnings));
+  }
   result_.duration = restart_->duration();
   result_.returned = result_.node_id_after = restart_->returned();
   if (!restart_->is_sent() || restart_->has_run_on()) {
@@ -359,11 +366,9 @@ std::optional<Error> ChangeJob::of_another_unit(const Snapshot& now) const {
   if (now.servo.unique_id && servo_.unique_id && now.servo.unique_id != servo_.unique_id) {
     return Error{Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id};
   }
-  const auto serial = now.servo.identity.readings().serial_number;
   const auto before = plan_.before.servo.identity.readings().serial_number;
-  if (serial && before && serial != before) {
-    return Error{Code::duplicate_unique_id, say<texts::other_serial>(id, *serial, *before),
-                 say<texts::doubled_unique_id_hint>(), id};
+  if (has_other_serial(now.servo, before)) {
+    return other_serial(now.servo, *before);
   }
   return std::nullopt;
 }

@@ -20,12 +20,13 @@ state::Registers stored(const bla::Values& values) {
 }
 
 /// For a unit whose configuration was read after its restart.
-state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const Session& session) {
-  return {.unique_id = unique_id,
+state::RomProof proof_of(const Servo& servo, const RomReading& rom, const Session& session) {
+  return {.unique_id = *servo.unique_id,
           .rom = stored(rom.values),
           .started = session.wall() - (session.now() - rom.started),
           .uptime = rom.uptime,
-          .clock = clock_of(session)};
+          .clock = clock_of(session),
+          .serial_number = servo.identity.readings().serial_number};
 }
 
 /// Without those that could not be written back.
@@ -211,7 +212,7 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   keep_rom(plan, held, session);
   const auto known = kept_.find(*unique_id);
   state::SnapshotEntry entry =
-      known != kept_.end() ? known->second.entry : new_entry(*unique_id, session);
+      known != kept_.end() ? known->second.entry : new_entry(plan.before.servo, session);
   const state::SnapshotEntry before = entry;
   if (plan.restart == RestartKind::save && known != kept_.end()) { // undo would save them
     for (const std::uint8_t address : std::exchange(known->second.lost, {})) {
@@ -281,12 +282,13 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
   return entries.empty() ? Result<void>() : store(std::move(entries), session.wall());
 }
 
-state::SnapshotEntry History::new_entry(const UniqueId& unit, const Session& session) const {
+state::SnapshotEntry History::new_entry(const Servo& servo, const Session& session) const {
   return {.run = run_,
           .at = session.wall(),
           .command = command_,
-          .unique_id = unit,
-          .clock = clock_of(session)};
+          .unique_id = *servo.unique_id,
+          .clock = clock_of(session),
+          .serial_number = servo.identity.readings().serial_number};
 }
 
 /// Entries of this command, which are those of their units from now on.
@@ -330,7 +332,7 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
     const bool tells =
         result.rom && !result.is_read_again && (result.is_done() || result.rom->values.empty());
     if (tells && result.servo.unique_id) {
-      proofs.push_back(proof_of(*result.servo.unique_id, *result.rom, session));
+      proofs.push_back(proof_of(result.servo, *result.rom, session));
     }
   }
   auto put = proofs.empty() ? Result<void>() : proofs_.put(proofs);

@@ -374,6 +374,7 @@ Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profile
             .proves_rom = wanted.proves_rom,
             .never_while_driven = wanted.never_while_driven,
             .rom_servo_id = wanted.rom_servo_id,
+            .told_until = wanted.told_until,
             .shown = wanted.also_read};
   if (wanted.erase) {
     auto defaults = plan.before.servo.identity.factory_defaults();

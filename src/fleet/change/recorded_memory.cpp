@@ -3,6 +3,8 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/history.hpp"
 
+#include "fleet/change/id_holders.hpp"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -133,6 +135,10 @@ bool started_before(WallTime started, WallTime at, WallTime now) {
   return started + clock_set < at - drift(at, now);
 }
 
+bool started_after(WallTime started, WallTime at, WallTime now) {
+  return at < started - drift(at, now);
+}
+
 WallTime last_write(const state::SnapshotEntry& change) {
   constexpr std::chrono::seconds writing_time{10}; // usual, where nobody recorded how it ended
   constexpr std::chrono::seconds whole_second{1};  // an uptime lets a start look later by as much
@@ -156,7 +162,8 @@ std::optional<state::RomProof> History::proof(const Servo& servo, const Session&
   const auto proof = proofs_.find(*servo.unique_id);
   const std::chrono::seconds uptime(member.status->uptime_s);
   const WallTime told = told_at(member, session);
-  if (!proof || !*proof || !state::holds(**proof, uptime, told, clock_of(session))) {
+  if (!proof || !*proof || has_other_serial(servo, (*proof)->serial_number) ||
+      !state::holds(**proof, uptime, told, clock_of(session))) {
     return std::nullopt;
   }
   if (uptime - (*proof)->uptime > worth_renewing) {
@@ -192,6 +199,10 @@ bool History::is_in_rom(const state::SnapshotEntry& change) const {
   return change.saved && (change.settled || is_of_this_command);
 }
 
+Result<std::optional<state::SnapshotEntry>> History::last_of(const Servo& servo) const {
+  return snapshots_.last(*servo.unique_id, servo.identity.readings().serial_number);
+}
+
 std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Session& session,
                                                    const Snapshot* ram) const {
   std::vector<state::SnapshotEntry> entries;
@@ -199,7 +210,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
   if (!started) {
     return entries;
   }
-  auto entry = snapshots_.last(*servo.unique_id);
+  auto entry = last_of(servo);
   while (entry && *entry && !is_in_rom(**entry)) {
     Entries changes{std::move(**entry)};
     entry = snapshots_.before(changes.back());
@@ -279,7 +290,7 @@ bla::Values History::saved_since_start(const Servo& servo, const Session& sessio
 LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
   const bool lacks_one =
       std::ranges::any_of(ids, [&](bla::Address id) { return ram.raw(id) == 0; });
-  auto entry = ram.servo.unique_id && lacks_one ? snapshots_.last(*ram.servo.unique_id)
+  auto entry = ram.servo.unique_id && lacks_one ? last_of(ram.servo)
                                                 : Result<std::optional<state::SnapshotEntry>>();
   Addresses since; // changed on purpose
   for (; entry && *entry; entry = snapshots_.before(**entry)) {
@@ -297,6 +308,19 @@ LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
     }
   }
   return {};
+}
+
+std::vector<Waiting> History::waiting(const Roster& roster) const {
+  std::vector<Waiting> units;
+  const auto proofs = proofs_.proofs();
+  for (const state::RomProof& proof : proofs ? *proofs : std::vector<state::RomProof>()) {
+    const auto id = proof.rom.find(bla::address::static_node_id.value());
+    if (id != proof.rom.end() && id->second != 0 && roster.is_pending(proof.unique_id) &&
+        !is_here(roster, proof.unique_id)) {
+      units.push_back({proof.unique_id, id->second});
+    }
+  }
+  return units;
 }
 
 bool History::is_rom_unread(const Servo& servo, const Session& session) {

@@ -62,7 +62,7 @@ Result<void> History::keep_what_was_taken(std::span<const ChangeResult> results,
     });
     const auto known = kept_.find(ram.key());
     state::SnapshotEntry entry =
-        known != kept_.end() ? known->second.entry : new_entry(ram.key(), session);
+        known != kept_.end() ? known->second.entry : new_entry(result.servo, session);
     const std::size_t size = entry.held.size();
     entry.held.merge(ram.mapped());
     if (entry.held.size() != size) {

@@ -30,16 +30,16 @@ bool is_repeated_as_a_whole(std::string_view command) {
 
 /// The last change of this unit, if a try of this command has made it and did not end. Empty: it is
 /// another.
-Result<std::optional<state::SnapshotEntry>> History::unfinished(const UniqueId& unit) const {
-  auto last = is_repeated_as_a_whole(command_) ? snapshots_.last(unit)
+Result<std::optional<state::SnapshotEntry>> History::unfinished(const Servo& servo) const {
+  auto last = is_repeated_as_a_whole(command_) ? last_of(servo)
                                                : Result<std::optional<state::SnapshotEntry>>();
   const bool is_other = last && *last && ((*last)->ended || (*last)->command != command_);
   return is_other ? Result<std::optional<state::SnapshotEntry>>() : last;
 }
 
-Result<void> History::go_on(std::span<const UniqueId> units, WallTime now) {
+Result<void> History::go_on(std::span<const Servo> units, WallTime now) {
   std::vector<state::SnapshotEntry> tries;
-  for (const UniqueId& unit : units) {
+  for (const Servo& unit : units) {
     auto tried = unfinished(unit);
     if (!tried) {
       return std::unexpected(tried.error());
@@ -81,7 +81,7 @@ Result<void> History::resume(const Plan& plan, const Session& session) {
   if (kept_.contains(unique_id)) {
     return {};
   }
-  auto last = unfinished(unique_id);
+  auto last = unfinished(servo);
   if (!last || !*last) {
     return last ? Result<void>() : std::unexpected(last.error());
   }
@@ -164,7 +164,7 @@ Result<void> History::join_done(std::span<const Plan> plans, const Session& sess
     if (joined_ == 0 || !unique_id || kept_.contains(*unique_id)) {
       continue;
     }
-    auto last = snapshots_.last(*unique_id);
+    auto last = last_of(plan.before.servo);
     if (!last) {
       return std::unexpected(last.error());
     }

@@ -195,7 +195,10 @@ std::vector<Error> Rounds::check_ids() {
   if (!survey) {
     return {survey.error()};
   }
-  surveyed_ = session_.roster().last_heard();
+  surveyed_ = options_.manner.surveyed = session_.roster().last_heard();
+  for (const UnitChange& unit : units_) {
+    options_.manner.own.insert(unit.unique_id);
+  }
   for (const NodeId id : survey->silent) {
     notes_.push_back(say<texts::did_not_tell_ids>(id.value()));
   }

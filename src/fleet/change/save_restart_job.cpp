@@ -1,6 +1,7 @@
 #include "blactl/fleet/change/save_restart_job.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
@@ -33,6 +34,9 @@ constexpr int most_times_young = 4;
 /// vendor's updater waits as long (facts, section 6).
 constexpr Duration settling_time = 1500ms;
 
+/// In which a unit that has come tells who it is.
+constexpr Duration answer_time = 2s;
+
 /// The interval of requests to an expected servo that is silent.
 constexpr Duration call_period = 1s;
 
@@ -63,7 +67,8 @@ Step SaveRestartJob::next(const Outcome& outcome) {
     }
     return ask_unit();
   case At::start:
-  case At::young: return ask_unit();
+  case At::young:
+  case At::newcomer: return ask_unit();
   case At::unit: return check_unit(outcome);
   case At::proof: return judge_proof(outcome);
   case At::request: return judge_answer(outcome);
@@ -112,6 +117,19 @@ Step SaveRestartJob::check_unit(const Outcome& outcome) {
                     say<texts::id_given_is_kept>(id, options_.expected->value()),
                     say<texts::id_given_is_kept_hint>(), id});
   }
+  if (const Member* holder = servo_id_holder(); holder != nullptr) {
+    if (!holder->info && !std::exchange(has_waited_for_newcomer_, true)) {
+      at_ = At::newcomer;
+      return dronecan::Pause{.until = outcome.at + answer_time, .ready = [this] {
+                               const Member* there = servo_id_holder();
+                               return there == nullptr || there->info;
+                             }};
+    }
+    return give_up(
+        {Code::duplicate_servo_id,
+         say<texts::servo_id_given_is_taken>(id, *options_.given_servo_id, holder->id.value()),
+         say<texts::servo_id_taken_hint>(), id});
+  }
   // SAVE keeps the present RAM: it must be unchanged since it was read, whatever was proven since
   if (options_.kind == RestartKind::save && roster_.writer_to(id_, servo_.since)) {
     is_unproven_ = true;
@@ -148,6 +166,15 @@ bool SaveRestartJob::is_expected_id_taken() const {
   const Member* there = roster_.find(*options_.expected);
   return (there != nullptr && there->last_heard > options_.expected_free_since) ||
          roster_.giver_of(*options_.expected, id_, options_.expected_free_since);
+}
+
+/// Another unit that has come with the given servo ID since the IDs of all were asked. It is asked
+/// who it is as it comes: one of the same change may be back under another node ID.
+const Member* SaveRestartJob::servo_id_holder() const {
+  return options_.given_servo_id && options_.pace != nullptr
+             ? roster_.newcomer_with(*options_.given_servo_id, options_.pace->surveyed, id_,
+                                     options_.pace->own)
+             : nullptr;
 }
 
 /// A servo that has not restarted until now is old enough to show a restart after this moment.

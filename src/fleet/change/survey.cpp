@@ -148,6 +148,9 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
       found.holders[id] = member.unique_id();
     }
   }
+  if (record != nullptr) {
+    found.waiting = record->waiting(session.roster());
+  }
   const bool gives_servo_id = std::ranges::any_of(plans, gives_new_servo_id);
   const auto snapshots =
       read_ids(session, profiles, options,
@@ -233,6 +236,13 @@ std::optional<Error> rom_node_id_conflict(const Survey& survey, std::span<const 
                    say<texts::servo_id_given_is_in_rom_hint>(other.id.value()), id};
     }
   }
+  for (const Waiting& other : survey.waiting) {
+    if (given && other.rom_static_node_id == given->value()) {
+      return Error{Code::duplicate_node_id,
+                   say<texts::node_id_given_is_in_waiting_rom>(id, given->value()),
+                   say<texts::node_id_given_is_in_waiting_rom_hint>(hex(other.unique_id)), id};
+    }
+  }
   return std::nullopt;
 }
 
@@ -245,11 +255,12 @@ std::optional<Error> newcomer_conflict(const Roster& roster, Time surveyed, cons
     if (is_new && node_id == id && !(own && member.is_unit(*own))) {
       return taken(plan, id, member.unique_id());
     }
-    if (is_new && servo_id && member.actuator_id == servo_id) {
-      return servo_id_taken(plan.before.servo.id.value(), *servo_id, id);
-    }
   }
-  return std::nullopt;
+  const Member* holder =
+      servo_id ? roster.newcomer_with(*servo_id, surveyed, plan.before.servo.id, {}) : nullptr;
+  return holder != nullptr
+             ? std::optional(servo_id_taken(plan.before.servo.id.value(), *servo_id, holder->id))
+             : std::nullopt;
 }
 
 } // namespace blactl::fleet

@@ -46,12 +46,36 @@ bool has_run_on(const Servo& servo, WallTime since, const Session& session) {
   return started && started_before(*started, since, session.wall()) && since <= session.wall();
 }
 
-std::vector<bla::Address> addresses_of(const state::Registers& registers) {
+/// Whether RAM was loaded from ROM after the last write of a change that was in RAM only.
+bool has_restarted_since(const state::SnapshotEntry& entry, const Servo& servo,
+                         const Session& session) {
+  const auto started = History::start_of(servo, session);
+  return !entry.saved && started && is_of_this_clock(entry, session) &&
+         started_after(*started, last_write(entry), session.wall());
+}
+
+/// The registers of a change as RAM holds them now.
+Result<Snapshot> read_held(const Undoing& change, NodeId id, Session& session,
+                           const bla::Profiles& profiles, const Identification::Options& options) {
   std::vector<bla::Address> addresses;
-  for (const auto& [address, raw] : registers) {
+  for (const auto& [address, raw] : change.entry.held) {
     addresses.emplace_back(address);
   }
-  return addresses;
+  auto read = take_snapshots(session, profiles, std::array{id}, options, [&](const Servo& asked) {
+    return asked.identity.registers(addresses);
+  });
+  return read.broken ? Result<Snapshot>(std::unexpected(*read.broken))
+                     : std::move(read.servos.front());
+}
+
+/// Whether RAM holds a value that the change has put there.
+bool shows(const Undoing& change, const Snapshot& ram) {
+  return std::ranges::any_of(change.entry.held, [&](const auto& held) {
+    const auto written = change.written.find(held.first);
+    const auto now = ram.raw(bla::Address(held.first));
+    return now && *now != held.second && written != change.written.end() &&
+           written->second.contains(*now);
+  });
 }
 
 bool is_unfinished_undo(const state::SnapshotEntry& entry) {
@@ -194,6 +218,14 @@ Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::
                         const Identification::Options& options) {
   const Servo servo = session.roster().member(id).servo();
   if (!change.perhaps_saved_since) {
+    const bool has_restarted = has_restarted_since(change.entry, servo, session);
+    if (has_restarted) {
+      const auto ram = read_held(change, id, session, profiles, options);
+      if (!ram) {
+        return std::unexpected(ram.error());
+      }
+      change.entry.saved = shows(change, *ram); // ROM has brought it back: somebody has saved it
+    }
     return change;
   }
   if (is_of_this_clock(change.entry, session) &&
@@ -201,18 +233,15 @@ Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::
     change.entry.saved = false;
     return change;
   }
-  const auto addresses = addresses_of(change.entry.held);
-  const auto read =
-      take_snapshots(session, profiles, std::array{id}, options,
-                     [&](const Servo& asked) { return asked.identity.registers(addresses); });
-  if (read.broken) {
-    return std::unexpected(*read.broken);
+  const auto ram = read_held(change, id, session, profiles, options);
+  if (!ram) {
+    return std::unexpected(ram.error());
   }
   const bool keeps_ids = change.entry.command == erase_keeping_ids;
   std::erase_if(change.entry.held, [&](const auto& held) {
     const bla::Address address(held.first);
     const auto written = change.written.find(held.first);
-    const auto now = read.servos.front().raw(address);
+    const auto now = ram->raw(address);
     const bool is_erased = keeps_ids && bla::is_id(address) && now == 0;
     // where RAM holds what was there before, only a restart shows whether ROM does
     return now && *now != held.second && written != change.written.end() &&
@@ -223,8 +252,9 @@ Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::
 }
 
 Result<std::optional<Undoing>> last_change(const state::SnapshotStore& store,
-                                           const dronecan::UniqueId& unique_id) {
-  auto last = store.last(unique_id);
+                                           const dronecan::UniqueId& unique_id,
+                                           std::optional<std::int64_t> serial_number) {
+  auto last = store.last(unique_id, serial_number);
   if (!last) {
     return std::unexpected(std::move(last.error()));
   }
@@ -240,7 +270,7 @@ Result<std::vector<Undoing>> last_changes(const state::SnapshotStore& store) {
     std::erase_if(*entries, std::not_fn(is_unfinished_undo));
   }
   for (auto entry = entries->begin(); entry != entries->end();) { // changed by others since
-    const auto last = store.last(entry->unique_id);
+    const auto last = store.last(entry->unique_id, entry->serial_number);
     if (!last) {
       return std::unexpected(last.error());
     }
@@ -277,9 +307,16 @@ Result<std::vector<Undoing>> changes_since(const state::SnapshotStore& store, st
     return fail(Code::not_found, say<texts::no_command_with_number>(run),
                 say<texts::no_command_with_number_hint>());
   }
-  std::map<dronecan::UniqueId, Tries> by_unit;
+  std::map<dronecan::UniqueId, std::int64_t> last_serials; // that older versions did not record
+  for (const state::SnapshotEntry& entry : *entries) {
+    if (entry.serial_number) {
+      last_serials.emplace(entry.unique_id, *entry.serial_number);
+    }
+  }
+  std::map<std::pair<dronecan::UniqueId, std::int64_t>, Tries> by_unit;
   for (auto entry = entries->begin(); entry != first.base(); ++entry) {
-    by_unit[entry->unique_id].push_back(std::move(*entry));
+    const auto serial = entry->serial_number.value_or(last_serials[entry->unique_id]);
+    by_unit[{entry->unique_id, serial}].push_back(std::move(*entry));
   }
   std::vector<Undoing> changes;
   for (Tries& each : by_unit | std::views::values) {

@@ -125,4 +125,24 @@ std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const ToldRo
   return warnings;
 }
 
+std::vector<Warning> written_before_restart(const Roster& roster, const Plan& plan, Time restart) {
+  const Snapshot& ram = plan.before;
+  std::vector<Warning> warnings;
+  for (const auto& written : roster.written_to(ram.servo.id, plan.told_until)) {
+    const bla::Parameter* parameter = ram.servo.identity.parameter(written.reg);
+    if (written.at <= restart && parameter != nullptr && parameter->is_setting() &&
+        ram.raw(written.reg) != written.raw) {
+      warnings.push_back(just_written(parameter->name,
+                                      bla::display(*parameter, written.raw, ram.pwm_mode()),
+                                      written.source, false));
+    }
+  }
+  return warnings;
+}
+
+std::vector<Warning> losses(std::vector<Warning> warnings) {
+  std::erase_if(warnings, [](const Warning& warning) { return warning.code != "unnamed_lost"; });
+  return warnings;
+}
+
 } // namespace blactl::fleet

@@ -5,6 +5,7 @@
 #include "blactl/fleet/bus/snapshot.hpp"
 #include "blactl/fleet/change/goal.hpp"
 #include "blactl/fleet/change/history.hpp"
+#include "blactl/fleet/change/plan.hpp"
 
 #include <vector>
 
@@ -20,5 +21,13 @@ namespace blactl::fleet {
 [[nodiscard]] std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram,
                                            const ToldRom& rom, Need need,
                                            bool is_restarted = false);
+
+/// Likewise about what other nodes were heard to write since this was told, before the restart at
+/// that time has taken it.
+[[nodiscard]] std::vector<Warning> written_before_restart(const Roster& roster, const Plan& plan,
+                                                          Time restart);
+
+/// Of the warnings of an earlier round, those of what its restart has taken from RAM.
+[[nodiscard]] std::vector<Warning> losses(std::vector<Warning> warnings);
 
 } // namespace blactl::fleet

@@ -70,6 +70,13 @@ std::optional<Error> first_wrong(const Snapshot& held, std::span<const bla::Assi
   return std::nullopt;
 }
 
+/// Whether the unit may hold other settings since, by what was done to it then.
+bool may_have_written(const LedgerRecord& record) {
+  const bool was_killed =
+      record.verdict == verdict::error && record.code == name(Code::interrupted);
+  return was_killed || record.changed_count.value_or(0) > 0;
+}
+
 Error several(std::optional<std::uint8_t> id) {
   return {Code::several_servos, say<texts::station_several>(), say<texts::station_several_hint>(),
           id};
@@ -115,21 +122,30 @@ Result<std::vector<LedgerRecord>> Station::end_interrupted() {
   return begun;
 }
 
-/// What the ledger says of a unit, by this recipe.
+/// What the ledger says of a unit, by this recipe; any other has changed it since.
 struct Station::Past {
   std::optional<std::int64_t> other_serial{}; ///< one of its unique ID has this number
   bool is_finished = false;
+  std::optional<std::int64_t> servo_id{}, static_node_id{}; ///< with which it was finished
   std::int64_t attempts = 0;
   unsigned failed = 0; ///< since it was finished or scrapped
+
+  [[nodiscard]] bool has_ids_of(const Label* label) const {
+    return label == nullptr ||
+           ((!label->servo_id || label->servo_id == servo_id) &&
+            (!label->static_node_id || label->static_node_id == static_node_id));
+  }
 };
 
 Result<Station::Past> Station::past_of(const Servo& servo) const {
   Past past;
-  const state::LedgerQuery query{.unique_id = hex(*servo.unique_id),
-                                 .recipe = options_.common.recipe};
+  const state::LedgerQuery query{.unique_id = hex(*servo.unique_id)};
   const auto read = ledger_.each(query, [&](const LedgerRecord& record) {
-    const auto serial = servo.identity.readings().serial_number;
-    if (record.serial_number && serial && record.serial_number != serial) {
+    if (record.recipe != options_.common.recipe) {
+      past.is_finished = past.is_finished && !may_have_written(record);
+      return true;
+    }
+    if (has_other_serial(servo, record.serial_number)) {
       past.other_serial = record.serial_number;
     }
     const bool counts = record.verdict == verdict::pass || record.verdict == verdict::fail ||
@@ -138,6 +154,8 @@ Result<Station::Past> Station::past_of(const Servo& servo) const {
     if (record.verdict == verdict::pass || record.verdict == verdict::scrap) {
       past.is_finished =
           record.verdict == verdict::pass && record.recipe_sha256 == options_.common.recipe_sha256;
+      past.servo_id = record.servo_id;
+      past.static_node_id = record.static_node_id;
       past.failed = 0;
     } else if (record.verdict == verdict::fail && record.code != name(Code::attempts)) {
       past.is_finished = false; // done anew, and not well
@@ -225,7 +243,7 @@ Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label
                         say<texts::station_other_serial>(*past->other_serial),
                         say<texts::unit_aside_hint>(), servo.id.value()});
   }
-  if (past->is_finished && !options_.redo) {
+  if (past->is_finished && !options_.redo && past->has_ids_of(label)) {
     record.attempt = past->attempts;
     return commit(std::move(record), arrival.at, verdict::skip, std::nullopt);
   }

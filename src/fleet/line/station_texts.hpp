@@ -39,9 +39,11 @@ inline constexpr Text counters_behind{
     "レシピ {1} で合格した {0} 台のサーボ (先頭: 固有 ID {2}) が採番表にありません。"
     "同じ ID を重複して割り当てる恐れがあります"};
 inline constexpr Text counters_behind_hint{
-    "put back the backup of the table (blactl ledger --backup), or give the recipe a new name, and "
-    "counters that begin after the IDs in `blactl ledger`",
-    "採番表のバックアップ (blactl ledger --backup) を戻すか、レシピの名前を変え、`blactl ledger` に"
+    "copy the newest FILE.counters that `blactl ledger --backup FILE` made to counters.db in the "
+    "state folder, or give the recipe a new name, and counters that begin after the IDs in "
+    "`blactl ledger`",
+    "`blactl ledger --backup FILE` で作成した最新の FILE.counters を状態フォルダーの counters.db に"
+    "コピーするか、レシピの名前を変え、`blactl ledger` に"
     "ある ID の次からカウンターを始めて下さい"};
 inline constexpr Text station_unproven{"it is not proven what the servo holds now",
                                        "サーボの現在の設定を確認できませんでした"};

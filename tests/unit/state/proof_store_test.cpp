@@ -206,7 +206,7 @@ TEST_CASE("a file that is no record of ours is refused by its name, and stays as
   const Folder folder;
   const auto [content, message] = GENERATE(
       std::pair("what is this", "not a blactl record of ROM contents"),
-      std::pair("PRAGMA user_version = 3", "has version 3; this blactl knows version 2"),
+      std::pair("PRAGMA user_version = 4", "has version 4; this blactl knows version 3"),
       std::pair("PRAGMA application_id = 1", "not a blactl record of ROM contents"),
       std::pair("UPDATE proofs SET rom = x'38'", "is damaged"),
       std::pair("UPDATE proofs SET rom = x'380000000000000001380000000000000002'", "is damaged"),
@@ -298,4 +298,14 @@ TEST_CASE("a start that could not read ROM is kept like any other") {
   unread.rom.clear();
   REQUIRE(put(store, unread));
   CHECK(found(store, 1) == unread);
+}
+
+TEST_CASE("all proofs are told, with the serial numbers of their units") {
+  const Folder folder;
+  auto store = opened(folder);
+  RomProof numbered = proof(2);
+  numbered.serial_number = 102;
+  REQUIRE(store.put(std::array{proof(1), numbered}));
+  CHECK(store.proofs().value() == std::vector{proof(1), numbered});
+  CHECK(store.find(unit(2)).value() == numbered);
 }

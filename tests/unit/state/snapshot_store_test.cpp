@@ -236,7 +236,7 @@ TEST_CASE("a file that is no history of ours is refused by its name, and stays a
   const Folder folder;
   const auto [content, message] = GENERATE(
       std::pair("what is this", "not a blactl change history"),
-      std::pair("PRAGMA user_version = 5", "has version 5; this blactl knows version 4"),
+      std::pair("PRAGMA user_version = 6", "has version 6; this blactl knows version 5"),
       std::pair("UPDATE snapshots SET held = x'38'", "is damaged"),
       std::pair("PRAGMA ignore_check_constraints = 1; UPDATE snapshots SET saved = 2",
                 "is damaged"),
@@ -286,6 +286,52 @@ void make_older_version(const std::filesystem::path& path, bool is_first) {
 }
 
 } // namespace
+
+TEST_CASE("units with one unique ID are told apart by their serial numbers") {
+  const Folder folder;
+  auto store = opened(folder);
+  const auto of_serial = [&](std::optional<std::int64_t> serial, int minutes) {
+    SnapshotEntry one = entry(1, minutes);
+    one.serial_number = serial;
+    return kept(store, one);
+  };
+  const SnapshotEntry unknown = of_serial(std::nullopt, 1), first = of_serial(101, 2),
+                      second = of_serial(102, 3);
+  CHECK(store.last(unit(1), 101) == first);
+  CHECK(store.last(unit(1), 102) == second);
+  CHECK(store.last(unit(1), 103) == unknown);
+  CHECK(store.last(unit(1)) == second);
+  CHECK(store.before(second) == unknown);
+}
+
+TEST_CASE("the last version but one is brought to the present one with its clock") {
+  const Folder folder;
+  SnapshotEntry one;
+  {
+    auto store = opened(folder);
+    one = entry(1);
+    one.clock = noon - 1h;
+    one = kept(store, one);
+  }
+  run_sql(file_of(folder),
+          "CREATE TABLE older AS SELECT * FROM snapshots; DROP TABLE snapshots; "
+          "CREATE TABLE snapshots (number INTEGER PRIMARY KEY, run INTEGER NOT NULL, "
+          "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
+          "command TEXT NOT NULL, "
+          "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
+          "held BLOB NOT NULL, written BLOB NOT NULL, "
+          "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
+          "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
+          "settled INTEGER CHECK (settled BETWEEN 0 AND 253402300799999999), "
+          "clock INTEGER CHECK (clock BETWEEN -253402300799999999 AND 253402300799999999), "
+          "boot TEXT NOT NULL, "
+          "UNIQUE (unique_id, number, run, at, command, held, written, saved, ended, settled, "
+          "clock, boot)) STRICT; "
+          "INSERT INTO snapshots SELECT number, run, at, command, unique_id, held, written, saved, "
+          "ended, settled, clock, boot FROM older; DROP TABLE older; PRAGMA user_version = 4");
+  CHECK(all(opened(folder)) == std::vector{one});
+  CHECK(check_state_files(file_of(folder).parent_path().string()).empty());
+}
 
 TEST_CASE("a history of an older version is brought to the present one, also for reading") {
   const Folder folder;

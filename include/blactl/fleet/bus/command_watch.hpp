@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <vector>
 
 namespace blactl::fleet {
 
@@ -102,6 +103,17 @@ class CommandWatch {
   /// Likewise, or one that ordered a restart, which puts RAM back to ROM.
   [[nodiscard]] std::optional<dronecan::NodeId>
   writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
+
+  /// What another node wrote to a setting.
+  struct Written {
+    bla::Address reg;
+    std::int64_t raw;
+    dronecan::NodeId source;
+    Time at; ///< of the last that may have changed something
+  };
+
+  /// The settings of this node that others wrote by name or address after `since`, each once.
+  [[nodiscard]] std::vector<Written> written_to(dronecan::NodeId id, Time since) const;
 
   /// Another node that ordered SAVE of this one after `since`.
   [[nodiscard]] std::optional<dronecan::NodeId> saver_of(dronecan::NodeId id, Time since) const;

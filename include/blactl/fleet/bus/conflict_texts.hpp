@@ -43,6 +43,16 @@ inline constexpr Text node_id_given_is_in_rom{
     "node {} would have node ID {}, which node {} has in its ROM, and gets with its next restart",
     "ノード {} のノード ID {} は、ノード {} の ROM 内の ID (再起動後の ID) と重複します",
 };
+inline constexpr Text node_id_given_is_in_waiting_rom{
+    "node {} would have node ID {}, which is in the ROM of a unit that waits for one, and which it "
+    "gets as soon as it can read its ROM",
+    "ノード {} のノード ID {} は、割当て要求中の機器の ROM 内の ID (ROM を読み出せた場合の ID) "
+    "と重複します",
+};
+inline constexpr Text node_id_given_is_in_waiting_rom_hint{
+    "let it start again, or take it off: blactl alloc --once; blactl restart -n uid:{}",
+    "その機器を再起動するか、取り外して下さい: blactl alloc --once; blactl restart -n uid:{}",
+};
 inline constexpr Text servo_id_given_is_in_rom{
     "node {} would have servo ID {}, which node {} has in its ROM, and gets with its next restart",
     "ノード {} のサーボ ID {} は、ノード {} の ROM 内の ID (再起動後の ID) と重複します",

@@ -277,6 +277,12 @@ class Roster {
     return chosen_.contains(servo.id) && !is_meant_(servo);
   }
 
+  /// A node that was first heard after `since`, sends this servo ID, and is none of the units
+  /// `own`; one that has not told yet who it is may be any.
+  [[nodiscard]] const Member* newcomer_with(std::int64_t servo_id, Time since,
+                                            dronecan::NodeId except,
+                                            const std::set<dronecan::UniqueId>& own) const;
+
   /// As CommandWatch::giver_of(), with a servo ID.
   [[nodiscard]] std::optional<dronecan::NodeId>
   giver_of_servo_id(std::int64_t given, dronecan::NodeId except, Time since) const {
@@ -293,6 +299,12 @@ class Roster {
   [[nodiscard]] std::optional<dronecan::NodeId>
   writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const {
     return commands_.writer_to(id, since, reg);
+  }
+
+  /// As CommandWatch::written_to().
+  [[nodiscard]] std::vector<CommandWatch::Written> written_to(dronecan::NodeId id,
+                                                              Time since) const {
+    return commands_.written_to(id, since);
   }
 
   /// As CommandWatch::saver_of().

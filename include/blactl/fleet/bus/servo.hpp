@@ -29,6 +29,13 @@ struct Servo {
   bool id_is_known = true;
 };
 
+/// Whether this servo has told another serial number than this one: then it is another unit,
+/// whatever its unique ID. False also where one of them is unknown.
+[[nodiscard]] inline bool has_other_serial(const Servo& servo, std::optional<std::int64_t> serial) {
+  const auto own = servo.identity.readings().serial_number;
+  return own && serial && own != serial;
+}
+
 /// Whether an uptime received at `now` proves that the unit has run since then: it counts whole
 /// seconds, and a clock may be wrong by some percent. False does not prove a restart.
 [[nodiscard]] bool has_run_since(Time since, std::uint32_t uptime_s, Time now);

@@ -71,4 +71,7 @@ may_be_meant(const Roster& roster, const Selector& selector, const bla::Profiles
 /// else not_found.
 [[nodiscard]] Error silent(const Roster& roster, dronecan::NodeId id);
 
+/// Of a servo with the unique ID of the unit with this serial number: has_other_serial().
+[[nodiscard]] Error other_serial(const Servo& servo, std::int64_t serial);
+
 } // namespace blactl::fleet

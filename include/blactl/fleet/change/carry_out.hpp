@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,11 @@ struct Progress {
 /// Options for all servos.
 struct Manner {
   Identification::Options identification{};
-  Duration stagger{};                  ///< between the requests to restart
-  Time* next_restart = nullptr;        ///< when the next one may be sent, from round to round
+  Duration stagger{};           ///< between the requests to restart
+  Time* next_restart = nullptr; ///< when the next one may be sent, from round to round
+  /// As in RestartPace, of all rounds.
+  std::set<dronecan::UniqueId> own{};
+  Time surveyed = never;
   std::optional<Duration> come_back{}; ///< empty: 5 s, and 2 s for each that will ask for an ID
   bool stops_at_failure = false;       ///< a failure stops all that are not saved yet
   bool overwrite_rom = false;          ///< agreed: also ROM that could not be read

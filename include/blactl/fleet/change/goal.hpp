@@ -26,7 +26,8 @@ struct Goal {
   dronecan::NodeId id; ///< its node ID
   /// The required unit; empty: any.
   std::optional<dronecan::UniqueId> unique_id{};
-  std::string name{}; ///< for people; may be empty
+  std::optional<std::int64_t> serial_number{}; ///< likewise
+  std::string name{};                          ///< for people; may be empty
   Wanted wanted{};
   Evidence evidence = Evidence::none;
 

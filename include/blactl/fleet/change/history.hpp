@@ -7,6 +7,7 @@
 #include "blactl/fleet/bus/session.hpp"
 #include "blactl/fleet/change/plan.hpp"
 #include "blactl/fleet/change/result.hpp"
+#include "blactl/fleet/change/survey.hpp"
 #include "blactl/state/proof_store.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
@@ -18,6 +19,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace blactl::fleet {
 
@@ -56,7 +58,7 @@ class History {
 
   /// Before all: of the units that this command is to save, also those that need nothing. If some
   /// of them are left from tries of it that failed, this command goes on with all of these.
-  [[nodiscard]] Result<void> go_on(std::span<const dronecan::UniqueId> units, WallTime now);
+  [[nodiscard]] Result<void> go_on(std::span<const Servo> units, WallTime now);
 
   /// Before the first request of a round: removes the proofs of ROM of servos that restart or are
   /// erased in it, which become outdated.
@@ -120,6 +122,10 @@ class History {
   /// not restarted as it should.
   [[nodiscard]] bla::Values saved_since_start(const Servo& servo, const Session& session) const;
 
+  /// The units that wait for a node ID, and whose ROM held a static one when it was last proven:
+  /// none changes it without SAVE. Empty also if the record cannot be read.
+  [[nodiscard]] std::vector<Waiting> waiting(const Roster& roster) const;
+
   /// Empty: none, or they were changed on purpose since.
   [[nodiscard]] LostIds lost_ids(const Snapshot& ram, const Session& session) const;
 
@@ -138,8 +144,7 @@ class History {
   [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan, const Roms& roms,
                                                              const Session& session);
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
-  [[nodiscard]] state::SnapshotEntry new_entry(const dronecan::UniqueId& unit,
-                                               const Session& session) const;
+  [[nodiscard]] state::SnapshotEntry new_entry(const Servo& servo, const Session& session) const;
   [[nodiscard]] Result<void> store(std::vector<state::SnapshotEntry> entries, WallTime now);
   [[nodiscard]] Result<void> keep_what_was_taken(std::span<const ChangeResult> results,
                                                  const Session& session);
@@ -148,8 +153,8 @@ class History {
   struct Settled;
   void settle(const ChangeResult& result, WallTime wall, Settled& settled);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results, WallTime wall);
-  [[nodiscard]] Result<std::optional<state::SnapshotEntry>>
-  unfinished(const dronecan::UniqueId& unit) const;
+  [[nodiscard]] Result<std::optional<state::SnapshotEntry>> last_of(const Servo& servo) const;
+  [[nodiscard]] Result<std::optional<state::SnapshotEntry>> unfinished(const Servo& servo) const;
   [[nodiscard]] Result<void> gather(std::span<const state::SnapshotEntry> tries, WallTime now);
   [[nodiscard]] Result<void> resume(const Plan& plan, const Session& session);
   [[nodiscard]] static bool is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
@@ -203,6 +208,9 @@ class History {
 /// Whether a servo that seems to have `started` then was running at the time `at` for certain:
 /// clocks differ by 50 ppm, and are set by a few seconds.
 [[nodiscard]] bool started_before(WallTime started, WallTime at, WallTime now);
+
+/// Likewise, whether it has started after that time, by a clock that nobody has set since.
+[[nodiscard]] bool started_after(WallTime started, WallTime at, WallTime now);
 
 /// No write of this change came later: the servo may have restarted between record and write.
 [[nodiscard]] WallTime last_write(const state::SnapshotEntry& change);

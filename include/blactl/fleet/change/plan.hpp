@@ -26,7 +26,8 @@ struct Wanted {
   std::optional<RestartKind> restart{};
   bool proves_rom = false; ///< after a plain restart the configuration is read: the contents of ROM
   std::optional<std::int64_t> rom_servo_id{}; ///< that a plain restart brings back, as far as known
-  std::vector<bla::Address> also_read{};      ///< shown in addition to the changes
+  Time told_until = never;               ///< until then it was told what a restart takes from RAM
+  std::vector<bla::Address> also_read{}; ///< shown in addition to the changes
   bool never_while_driven = false; ///< whatever it changes: contract, section 4, of whole commands
 
   /// Whether it concerns whole servos, not single registers.
@@ -51,6 +52,7 @@ struct Plan {
   bool never_while_driven = false;            ///< as in Wanted
   bool may_change_all = false;                ///< any setting, in no order that is known
   std::optional<std::int64_t> rom_servo_id{}; ///< likewise
+  Time told_until = never;                    ///< likewise
   std::vector<bla::Address> shown{};          ///< Wanted::also_read
   /// The configuration afterwards; empty if unknown or not needed: a plain restart loads ROM.
   bla::Values expected{};

@@ -25,6 +25,9 @@ struct RestartPace {
   std::set<dronecan::NodeId> leaving{}; ///< ordered to restart, may return under another ID
   bool stops_at_failure = false; ///< after a failure nothing is sent that changes another servo
   bool has_failed = false;
+  /// The units of the whole change, which exchange their IDs, and when all others were asked.
+  std::set<dronecan::UniqueId> own{};
+  Time surveyed = never;
 
   [[nodiscard]] bool is_stopped() const { return stops_at_failure && has_failed; }
 };
@@ -44,8 +47,9 @@ class SaveRestartJob final : public dronecan::Job {
     /// The future node ID of the servo, if known.
     std::optional<dronecan::NodeId> expected{};
     Time expected_free_since{}; ///< whoever is heard on that ID after this is another unit
-    bool may_be_driven = false; ///< also while another node drives the servo
-    std::optional<std::int64_t> next_servo_id{}; ///< that ROM brings back, as far as known
+    std::optional<std::int64_t> given_servo_id{}; ///< that it has afterwards, if known to be free
+    bool may_be_driven = false;                   ///< also while another node drives the servo
+    std::optional<std::int64_t> next_servo_id{};  ///< that ROM brings back, as far as known
   };
 
   /// `servo` has a unique ID; `roster` outlives the job.
@@ -95,6 +99,7 @@ class SaveRestartJob final : public dronecan::Job {
     start,
     unit,
     young,
+    newcomer,
     proof,
     request,
     settling,
@@ -107,6 +112,7 @@ class SaveRestartJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step check_unit(const dronecan::Outcome& outcome);
   [[nodiscard]] bool is_leaving(dronecan::NodeId id) const;
   [[nodiscard]] bool is_expected_id_taken() const;
+  [[nodiscard]] const Member* servo_id_holder() const;
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step request(Time now);
   [[nodiscard]] dronecan::Step judge_answer(const dronecan::Outcome& outcome);
@@ -141,7 +147,8 @@ class SaveRestartJob final : public dronecan::Job {
   Options options_;
   Guard guard_;
   At at_ = At::begin;
-  int pauses_ = 0;         ///< of a servo that was too young
+  int pauses_ = 0; ///< of a servo that was too young
+  bool has_waited_for_newcomer_ = false;
   std::uint32_t boot_ = 0; ///< of the servo at the time of the request
   Time first_sent_at_{}, sent_at_{}, ended_at_{};
   bool is_sent_ = false;

@@ -27,6 +27,12 @@ struct Neighbour {
   bool is_rom_unread = false; ///< it runs on initial values, its IDs in ROM may be others
 };
 
+/// A unit that waits for a node ID: it could not read its ROM, if that holds one.
+struct Waiting {
+  dronecan::UniqueId unique_id{};
+  std::int64_t rom_static_node_id{}; ///< by the last proof
+};
+
 /// Nodes that send no actuator.Status, and that nobody has identified. Asking what they are costs a
 /// second and more where one does not answer; where servo IDs matter, it may be a servo.
 enum class Unidentified : std::uint8_t { asked, left_out };
@@ -42,6 +48,7 @@ struct Survey {
   std::map<dronecan::NodeId, std::optional<dronecan::UniqueId>> holders;
   std::vector<Neighbour> servos;        ///< all servos heard
   std::vector<dronecan::NodeId> silent; ///< of those, the ones that did not respond
+  std::vector<Waiting> waiting;         ///< those whose ROM holds a static node ID, as far as known
 };
 
 /// Asks for the holders of the node IDs that the plans assign, and all servos for their IDs in RAM.
@@ -60,7 +67,8 @@ struct Survey {
 [[nodiscard]] std::optional<Error> servo_id_conflict(const Survey& survey,
                                                      std::span<const Plan> plans, const Plan& plan);
 
-/// Whether another servo, whose ROM stays as it is, has the given node ID in it as far as known.
+/// Whether another servo, whose ROM stays as it is, has the given node ID in it as far as known; it
+/// may wait for a node ID.
 [[nodiscard]] std::optional<Error>
 rom_node_id_conflict(const Survey& survey, std::span<const Plan> plans, const Plan& plan);
 

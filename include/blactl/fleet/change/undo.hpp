@@ -40,15 +40,17 @@ struct Undoing {
 
 /// The change as far as the servo on this node ID shows it, where it broke off. One that has run on
 /// since has saved nothing; of what a restart has brought back only what the tries have written is
-/// theirs. A node ID always goes back. Errors: as Session::run().
+/// theirs. A node ID always goes back. A change in RAM only that a restart has brought back counts
+/// as saved: another tool has done so. Errors: as Session::run().
 [[nodiscard]] Result<Undoing> as_left(Undoing change, dronecan::NodeId id, Session& session,
                                       const bla::Profiles& profiles,
                                       const Identification::Options& options);
 
 /// The last change of this unit; empty: none is known. For an undo that did not end, the change
 /// that it was to undo. Errors: those of the store.
-[[nodiscard]] Result<std::optional<Undoing>> last_change(const state::SnapshotStore& store,
-                                                         const dronecan::UniqueId& unique_id);
+[[nodiscard]] Result<std::optional<Undoing>>
+last_change(const state::SnapshotStore& store, const dronecan::UniqueId& unique_id,
+            std::optional<std::int64_t> serial_number = std::nullopt);
 
 /// The changes of the last command; if that is an undo which did not end, those still to be undone.
 /// Errors: those of the store.
