@@ -169,8 +169,13 @@ Undoing as_one(Tries changes) {
 /// wishes, until it succeeded.
 Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry entry) {
   auto tries = tries_of(store, std::move(entry));
-  return tries ? Result<Undoing>(as_one(std::move(*tries)))
-               : std::unexpected(std::move(tries.error()));
+  const auto earlier = tries ? store.before(tries->back()) : std::unexpected(tries.error());
+  if (!earlier) {
+    return std::unexpected(earlier.error());
+  }
+  Undoing one = as_one(std::move(*tries));
+  one.is_after_trial = *earlier && !(*earlier)->saved;
+  return one;
 }
 
 /// What was in RAM only when ROM was changed is recorded as saved; else a restart had taken it.
@@ -218,8 +223,7 @@ Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::
                         const Identification::Options& options) {
   const Servo servo = session.roster().member(id).servo();
   if (!change.perhaps_saved_since) {
-    const bool has_restarted = has_restarted_since(change.entry, servo, session);
-    if (has_restarted) {
+    if (!change.is_after_trial && has_restarted_since(change.entry, servo, session)) {
       const auto ram = read_held(change, id, session, profiles, options);
       if (!ram) {
         return std::unexpected(ram.error());
@@ -326,6 +330,7 @@ Result<std::vector<Undoing>> changes_since(const state::SnapshotStore& store, st
     }
     leave_out_what_was_lost(each);
     changes.push_back(as_one(std::move(each)));
+    changes.back().is_after_trial = true; // several changes: which of them ROM holds is not known
   }
   return changes;
 }

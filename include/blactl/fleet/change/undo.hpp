@@ -32,6 +32,7 @@ struct Undoing {
   /// began. Empty: it is known.
   std::optional<WallTime> perhaps_saved_since{};
   std::map<std::uint8_t, std::set<std::int64_t>> written{}; ///< by all tries
+  bool is_after_trial = false; ///< a change in RAM only came before it: ROM may hold what it wrote
 };
 
 /// A value of a register of this entry as people read it, in the unit that the entry tells.
