@@ -539,9 +539,10 @@ TEST_CASE(
   const auto plans = plans_for(scene, restart, {11, 12});
   const std::vector<dronecan::UniqueId> done{plans[0].before.servo.unique_id.value()};
   const std::vector<dronecan::UniqueId> all{done[0], plans[1].before.servo.unique_id.value()};
+  const std::vector<Servo> both{plans[0].before.servo, plans[1].before.servo};
   {
     History tried = kept.history("apply");
-    REQUIRE(tried.go_on(all, scene.session->wall()));
+    REQUIRE(tried.go_on(both, scene.session->wall()));
     REQUIRE(change(scene, set("angle_limit_cw=90deg", true), tried, {11}).servos[0].is_done());
     REQUIRE(tried.end(done, false));
   }
@@ -550,7 +551,7 @@ TEST_CASE(
     REQUIRE(change(scene, set("reverse=on"), kept, "set").is_done());
   }
   History again = kept.history("apply");
-  REQUIRE(again.go_on(all, scene.session->wall()));
+  REQUIRE(again.go_on(both, scene.session->wall()));
   REQUIRE(change(scene, set("angle_limit_cw=90deg", true), again, {12}).servos[0].is_done());
   REQUIRE(again.end(all, true));
   CHECK(kept.to_undo().size() == (restarts ? 1 : 2)); // the set has come after it on 11
@@ -568,7 +569,8 @@ TEST_CASE("tries of single servos, and then one of all, are one change") {
                                             scene.member(12).info->unique_id};
   History again = kept.history("apply");
   if (is_saved) {
-    REQUIRE(again.go_on(all, scene.session->wall()));
+    REQUIRE(again.go_on(std::array{scene.member(11).servo(), scene.member(12).servo()},
+                        scene.session->wall()));
   }
   const auto done = change(scene, set("angle_limit_cw=80deg", is_saved), again, {11, 12});
   REQUIRE(done.servos[1].is_done());
@@ -590,7 +592,8 @@ TEST_CASE("tries of single servos that left nothing to do for one of all are und
   const std::vector<dronecan::UniqueId> all{scene.member(11).info->unique_id,
                                             scene.member(12).info->unique_id};
   History again = kept.history("apply");
-  REQUIRE(again.go_on(all, scene.session->wall()));
+  REQUIRE(again.go_on(std::array{scene.member(11).servo(), scene.member(12).servo()},
+                      scene.session->wall()));
   REQUIRE(again.end(all, true));
   const auto changes = kept.to_undo();
   REQUIRE(changes.size() == 2);
