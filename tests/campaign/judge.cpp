@@ -347,7 +347,10 @@ void check_success(const Step& step, bool all_reached, std::size_t told) {
 
 /// Two units of one unique ID, there all the time, are not changed.
 void check_doubled(const Step& step, std::int64_t serial, const Told& told) {
-  const bool was_quiet = step.accidents(serial).empty() && step.restarts(serial).empty() &&
+  const auto stayed = [&](std::int64_t one) {
+    return step.accidents(one).empty() && step.restarts(one).empty();
+  };
+  const bool was_quiet = stayed(serial) && std::ranges::all_of(step.copies(serial), stayed) &&
                          step.begin > Time{} + settled;
   if (!step.shows_doubled(serial) || !was_quiet || only_looks(step.command) ||
       step.episode.scenario.contains("wire") || step.episode.has("no_node_status")) {
