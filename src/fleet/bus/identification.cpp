@@ -18,6 +18,9 @@ namespace {
 /// A servo that restarts again and again does not grow older; its reading shows that.
 constexpr int most_pauses = 4;
 
+/// On a bus with so many silences nothing else is to be had.
+constexpr int most_silences = 4;
+
 /// Whether it is a response with the value of a register, even if out of its range.
 bool is_number(const Outcome& outcome) {
   const auto response =
@@ -183,7 +186,18 @@ std::optional<Error> Identification::undecided() const {
   return roster_.heard(servo_.id) ? identity_unrecorded(servo_.id) : unrecorded(servo_.id);
 }
 
+/// An actuator is heard ten times a second: in a silence its place may have become another's, and
+/// what it told before and after would be of two.
+bool Identification::may_be_of_two() const {
+  return info_ && sends_actuator_status() && roster_.member(servo_.id).back_at > servo_.since;
+}
+
 Step Identification::conclude() {
+  if (may_be_of_two() && silences_++ < most_silences) {
+    readings_ = {};
+    servo_.is_servo = model_silent_ = false;
+    return question(At::node_info);
+  }
   error_ = undecided();
   if (error_) {
     return std::nullopt;

@@ -121,6 +121,9 @@ void Roster::learn(const Servo& servo, const std::optional<dronecan::GetNodeInfo
   member.servo_id = servo.servo_id;
   member.static_node_id = servo.static_node_id;
   member.identified = true;
+  if (servo.unique_id) {
+    first_told_.try_emplace(*servo.unique_id, servo.since);
+  }
 }
 
 void Roster::recall(const Servo& servo) {
@@ -369,6 +372,12 @@ std::optional<NodeId> Roster::giver_of(NodeId given, NodeId except, Time since) 
     return allotted->by;
   }
   return commands_.giver_of(bla::address::static_node_id, given.value(), except, since);
+}
+
+std::optional<NodeId> Roster::renumbered_by(const Servo& servo) const {
+  const auto told = servo.unique_id ? first_told_.find(*servo.unique_id) : first_told_.end();
+  return told != first_told_.end() ? setter_of(servo.id, told->second, bla::address::servo_id)
+                                   : std::nullopt;
 }
 
 const Member* Roster::newcomer_with(std::int64_t servo_id, Time since, NodeId except,

@@ -122,6 +122,10 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
       return why;
     }
   }
+  if (const auto writer = roster.renumbered_by(servo)) {
+    return Error{Code::state, say<texts::written_by_other>(id, writer->value()),
+                 say<texts::run_again_hint>(), id};
+  }
   if (auto why = changed_since_read(roster, plan)) {
     return why;
   }

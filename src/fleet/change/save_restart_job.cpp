@@ -130,6 +130,12 @@ Step SaveRestartJob::check_unit(const Outcome& outcome) {
          say<texts::servo_id_given_is_taken>(id, *options_.given_servo_id, holder->id.value()),
          say<texts::servo_id_taken_hint>(), id});
   }
+  if (const auto given = servo_id_given()) {
+    return give_up(
+        {Code::duplicate_servo_id,
+         say<texts::servo_id_given_is_taken>(id, *options_.given_servo_id, given->value()),
+         say<texts::servo_id_taken_hint>(), id});
+  }
   // SAVE keeps the present RAM: it must be unchanged since it was read, whatever was proven since
   if (options_.kind == RestartKind::save && roster_.writer_to(id_, servo_.since)) {
     is_unproven_ = true;
@@ -175,6 +181,13 @@ const Member* SaveRestartJob::servo_id_holder() const {
              ? roster_.newcomer_with(*options_.given_servo_id, options_.pace->surveyed, id_,
                                      options_.pace->own)
              : nullptr;
+}
+
+/// Another servo to which another node has given this servo ID since this one was read.
+std::optional<dronecan::NodeId> SaveRestartJob::servo_id_given() const {
+  return options_.given_servo_id
+             ? roster_.giver_of_servo_id(*options_.given_servo_id, id_, servo_.since)
+             : std::nullopt;
 }
 
 /// A servo that has not restarted until now is old enough to show a restart after this moment.

@@ -208,6 +208,9 @@ std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Pla
                                        const Plan& plan) {
   const std::uint8_t id = plan.before.servo.id.value();
   const auto servo_id = plan.given_servo_id();
+  const auto own = std::ranges::find(survey.servos, plan.before.servo.id, &Neighbour::id);
+  const bool is_new_in_rom = plan.restart == RestartKind::save && own != survey.servos.end() &&
+                             own->rom_servo_id && own->rom_servo_id != servo_id;
   for (const Neighbour& other : survey.servos) {
     if (!servo_id || other.id == plan.before.servo.id) {
       continue;
@@ -215,7 +218,8 @@ std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Pla
     if (after(plans, other, at::servo_id, other.servo_id) == servo_id) {
       return servo_id_taken(id, *servo_id, other.id);
     }
-    if (gives_new_servo_id(plan) && stays(plans, other) && other.rom_servo_id == servo_id) {
+    if ((gives_new_servo_id(plan) || is_new_in_rom) && stays(plans, other) &&
+        other.rom_servo_id == servo_id) {
       return Error{Code::duplicate_servo_id,
                    say<texts::servo_id_given_is_in_rom>(id, *servo_id, other.id.value()),
                    say<texts::servo_id_given_is_in_rom_hint>(other.id.value()), id};

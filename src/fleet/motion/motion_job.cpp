@@ -137,8 +137,9 @@ std::optional<Error> MotionJob::forbidden() const {
 
 /// The reason why it must not continue as agreed.
 std::optional<Error> MotionJob::disturbed() const {
-  if (const auto writer = roster_.writer_to(servo_.id, looked_at_)) {
-    return Error{Code::state, say<texts::written_by_other>(id(), writer->value()),
+  const auto writer = roster_.writer_to(servo_.id, looked_at_);
+  if (const auto other = writer ? writer : roster_.renumbered_by(servo_)) {
+    return Error{Code::state, say<texts::written_by_other>(id(), other->value()),
                  say<texts::other_writer_hint>(), id()};
   }
   if (const auto other = newcomer()) {

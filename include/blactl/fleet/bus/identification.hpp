@@ -63,6 +63,7 @@ class Identification {
   [[nodiscard]] std::optional<Error> undecided() const;
   [[nodiscard]] bool sends_actuator_status() const;
   [[nodiscard]] bool may_be_servo() const;
+  [[nodiscard]] bool may_be_of_two() const;
   [[nodiscard]] Error silence_of_model() const;
   void take_node_info(const dronecan::Outcome& outcome);
   void take_register(const dronecan::Outcome& outcome);
@@ -72,7 +73,8 @@ class Identification {
   const bla::Profiles& profiles_;
   Options options_;
   At at_ = At::begin;
-  int pauses_ = 0; ///< to let it grow older
+  int pauses_ = 0;   ///< to let it grow older
+  int silences_ = 0; ///< in the middle of it
   Servo servo_;
   std::optional<dronecan::GetNodeInfo::Response> info_;
   bla::Readings readings_;

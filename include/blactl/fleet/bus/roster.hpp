@@ -277,6 +277,10 @@ class Roster {
     return chosen_.contains(servo.id) && !is_meant_(servo);
   }
 
+  /// Another node that has written the servo ID of this servo since it told it first: who is meant
+  /// may have been told by that.
+  [[nodiscard]] std::optional<dronecan::NodeId> renumbered_by(const Servo& servo) const;
+
   /// A node that was first heard after `since`, sends this servo ID, and is none of the units
   /// `own`; one that has not told yet who it is may be any.
   [[nodiscard]] const Member* newcomer_with(std::int64_t servo_id, Time since,
@@ -340,6 +344,7 @@ class Roster {
   std::vector<Listener*> listeners_;
   std::map<dronecan::NodeId, Member> members_;
   std::array<bool, 128> heard_{};
+  std::map<dronecan::UniqueId, Time> first_told_; ///< when units were first asked for their IDs
   std::set<dronecan::NodeId> chosen_;
   std::function<bool(const Servo&)> is_meant_;
   std::array<UnitWatch, 128> watches_{};

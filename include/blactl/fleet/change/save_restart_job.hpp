@@ -113,6 +113,7 @@ class SaveRestartJob final : public dronecan::Job {
   [[nodiscard]] bool is_leaving(dronecan::NodeId id) const;
   [[nodiscard]] bool is_expected_id_taken() const;
   [[nodiscard]] const Member* servo_id_holder() const;
+  [[nodiscard]] std::optional<dronecan::NodeId> servo_id_given() const;
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step request(Time now);
   [[nodiscard]] dronecan::Step judge_answer(const dronecan::Outcome& outcome);
