@@ -175,7 +175,7 @@ TEST_CASE("faults --watch tells that a servo is gone when another one is in its 
     }
   }
   INFO(watched.out << watched.err);
-  CHECK(events == std::vector<std::string>{"gone 7", "present 8"});
+  CHECK(events == std::vector<std::string>{"gone 7", "back 8", "present 8"});
 }
 
 TEST_CASE("faults --watch is a log on a terminal too, and a brown-out leaves its lines") {

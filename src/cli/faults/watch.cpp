@@ -173,8 +173,8 @@ bool Watch::tell_silence(const FaultState& now) {
   return tell(Event::gone, before->second);
 }
 
-/// The faults of the servo before did not go, and this one neither restarted nor came back: it is
-/// another unit.
+/// The faults of the servo before did not go, and this one did not restart: it is another unit,
+/// with which the node ID is back.
 bool Watch::tell_exchange(const FaultState& now) {
   const NodeId id = now.snapshot.servo.id;
   const auto before = last_.find(id);
@@ -185,7 +185,7 @@ bool Watch::tell_exchange(const FaultState& now) {
     return true;
   }
   context_.reporter().note(say<texts::fault_other_servo>(id.value()));
-  const bool goes_on = silent_.erase(id) > 0 || tell(Event::gone, before->second);
+  const bool goes_on = !silent_.insert(id).second || tell(Event::gone, before->second);
   last_.erase(before);
   boots_[id] = context_.session().roster().member(id).boots;
   return goes_on;
