@@ -104,6 +104,61 @@ TEST_CASE("doctor names conflicts, the worst first, and who has no node ID") {
   CHECK(all.back() == "no_node_id");
 }
 
+TEST_CASE("what doctor says of a node ID in RAM is true, and both of its commands work as typed") {
+  const std::string keep = "blactl -i sim: save -n 11",
+                    take_back = "blactl -i sim: set -n 11 static_node_id=11";
+  const auto& [typed, id] = GENERATE_COPY(table<std::string, int>({{keep, 30}, {take_back, 11}}));
+  const Bench bench;
+  const Background sim(bench, {"sim", bench.file("s.json", scenario_of_one())});
+  const auto run = [&](const std::string& words) {
+    Arguments arguments;
+    std::istringstream line("-i sim: " + words);
+    for (std::string word; line >> word;) {
+      arguments.push_back(word);
+    }
+    return bench.run(arguments);
+  };
+  REQUIRE(run("set -n 11 static_node_id=30 -y").status == 0);
+  const auto document = json(run("doctor -j").out);
+  const auto& finding = document["findings"].at(0);
+  CHECK(finding["code"] == "static_node_id");
+  CHECK(finding["text"] == "0x46 of node 11 is 30 in RAM: whether ROM holds that too, which counts "
+                           "after a restart, is not known");
+  CHECK(finding["fix"] == "make it permanent: " + keep + "; or take it back: " + take_back);
+  REQUIRE(run(typed.substr(std::string("blactl -i sim: ").size()) + " -y").status == 0);
+  CHECK(run("restart -n " + std::to_string(id) + " -y").status == 0);
+  CHECK(found(run("doctor -j")).empty());
+}
+
+TEST_CASE("the command for units that wait for a node ID touches nobody else") {
+  const Bench bench;
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 5, {{"serial_number", 5}, {"servo_id", 1}})
+                          .servo("BLA21-12U-AB", 6, {{"serial_number", 6}, {"servo_id", 2}})
+                          .servo("BLA21-12U-AB", 0, {{"serial_number", 7}, {"servo_id", 3}})
+                          .servo("BLA21-12U-AB", 0, {{"serial_number", 8}, {"servo_id", 4}});
+  const Background sim(bench, {"sim", scene.write(bench)});
+  const auto document = json(bench.run({"-i", "sim:", "doctor", "-j"}).out);
+  const auto& finding = document["findings"].at(0);
+  REQUIRE(finding["code"] == "no_node_id");
+  const std::string fix = finding["fix"];
+  INFO(fix);
+  std::istringstream line(fix.substr(fix.find("alloc --static")));
+  Arguments arguments{"-i", "sim:", "-y"};
+  for (std::string word; line >> word;) {
+    arguments.push_back(word);
+  }
+  const Result typed = bench.run(arguments);
+  INFO(typed.out << typed.err);
+  CHECK(typed.status == 0);
+  std::vector<std::string> now;
+  const auto scanned = json(bench.run({"-i", "sim:", "scan", "-j"}).out);
+  for (const auto& node : scanned["nodes"]) {
+    now.push_back(node["node_id"].dump() + ' ' + node["serial_number"].dump());
+  }
+  CHECK(now == std::vector<std::string>{"5 5", "6 6", "11 7", "12 8"});
+}
+
 TEST_CASE("doctor tells that nothing is heard, and that nobody acknowledges") {
   const Bench bench;
   const std::string empty =

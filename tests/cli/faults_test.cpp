@@ -156,6 +156,28 @@ TEST_CASE("faults --watch tells of restarts, and of who falls silent and answers
   CHECK(events == std::vector<std::string>{"restarted", "gone", "back", "restarted"});
 }
 
+TEST_CASE("faults --watch tells that a servo is gone when another one is in its place") {
+  const Bench bench;
+  const Scene scene =
+      Scene()
+          .servo("BLA15-06U-A0", 11, {{"serial_number", 7}})
+          .servo("BLA15-06U-A0", 11,
+                 {{"serial_number", 8}, {"rom", {{"temperature_limit_high", "20degC"}}}})
+          .event(7, "power_off", "9s")
+          .joins(8, "9s");
+  Background watch(bench, {"-i", "sim:" + scene.write(bench), "faults", "--watch", "-j"}, {},
+                   "present");
+  const Result watched = watch.stop(SIGINT);
+  std::vector<std::string> events;
+  for (const auto& line : json_lines(watched.out)) {
+    if (line.contains("event")) {
+      events.push_back(line["event"].get<std::string>() + ' ' + line["serial_number"].dump());
+    }
+  }
+  INFO(watched.out << watched.err);
+  CHECK(events == std::vector<std::string>{"gone 7", "back 8", "present 8"});
+}
+
 TEST_CASE("faults --watch is a log on a terminal too, and a brown-out leaves its lines") {
   const Bench bench;
   const auto event = [](const char* at, const char* what) {

@@ -259,3 +259,39 @@ TEST_CASE("a disk that is full at any write never lets a unit pass without its r
 }
 
 #endif
+
+TEST_CASE(
+    "what another node wrote while a unit is read for the last time is not the unit's fault") {
+  const Scene bench =
+      line({{.serial = 101, .from = 1, .to = 90, .node_id = 7, .more = {{"servo_id", 1}}}});
+  const auto run = [&](int at_ms, const char* order) {
+    Scene scene = bench;
+    scene.foreign(90, {{"orders",
+                        {{{"at", std::to_string(at_ms) + "ms"},
+                          {"to", 7},
+                          {"order", order},
+                          {"address", 0x38},
+                          {"value", 100}}}}});
+    return provision(scene, {"--count", "1", "--idle-timeout", "2"}, {}, short_recipe);
+  };
+  const Provisioned alone = run(80'000, "write");
+  REQUIRE(alone.told() == "pass 1 7");
+  const int end = 1100 + static_cast<int>(alone.records[0]["duration_s"].get<double>() * 1000);
+  std::set<std::string> reasons;
+  for (const char* order : {"write", "erase"}) {
+    for (int at = end - 120; at < end + 80; at += 10) {
+      const Provisioned disturbed = run(at, order);
+      INFO(order << ' ' << at << ' ' << disturbed.result.out << disturbed.result.err);
+      REQUIRE_FALSE(disturbed.records.empty());
+      const auto& record = disturbed.records[0];
+      CHECK(record["verdict"] != "fail");
+      if (record["verdict"] == "error") {
+        CHECK(record["code"] == "state");
+        const std::string reason = record["reason"]; // perhaps with a remark on the clock
+        reasons.insert(reason.substr(0, reason.find(';')));
+      }
+    }
+  }
+  CHECK(reasons ==
+        std::set<std::string>{"node 90 wrote to node 7 meanwhile: what it holds now is not known"});
+}

@@ -70,6 +70,7 @@ class Watch {
   [[nodiscard]] bool tell_restart(const FaultState& now);
   [[nodiscard]] bool check(const Result<bool>& printed);
   [[nodiscard]] bool tell_silence(const FaultState& now);
+  [[nodiscard]] bool tell_exchange(const FaultState& now);
   void tell_refusal(FaultState& now, std::span<const Fault> had);
 
   bla::Level shown_;
@@ -172,6 +173,24 @@ bool Watch::tell_silence(const FaultState& now) {
   return tell(Event::gone, before->second);
 }
 
+/// The faults of the servo before did not go, and this one did not restart: it is another unit,
+/// with which the node ID is back.
+bool Watch::tell_exchange(const FaultState& now) {
+  const NodeId id = now.snapshot.servo.id;
+  const auto before = last_.find(id);
+  const bool is_other = before != last_.end() && now.has_answered() &&
+                        before->second.snapshot.servo.unique_id &&
+                        before->second.snapshot.servo.unique_id != now.snapshot.servo.unique_id;
+  if (!is_other) {
+    return true;
+  }
+  context_.reporter().note(say<texts::fault_other_servo>(id.value()));
+  const bool goes_on = !silent_.insert(id).second || tell(Event::gone, before->second);
+  last_.erase(before);
+  boots_[id] = context_.session().roster().member(id).boots;
+  return goes_on;
+}
+
 bool Watch::tell_restart(const FaultState& now) {
   const NodeId id = now.snapshot.servo.id;
   const std::uint32_t boots = context_.session().roster().member(id).boots;
@@ -194,19 +213,11 @@ void Watch::tell_refusal(FaultState& now, std::span<const Fault> had) {
 
 /// Compares one read of a servo with the one before.
 bool Watch::take(FaultState now) {
-  if (!tell_silence(now) || (now.has_answered() && !tell_restart(now))) {
+  if (!tell_exchange(now) || !tell_silence(now) || (now.has_answered() && !tell_restart(now))) {
     return false;
   }
   const NodeId id = now.snapshot.servo.id;
-  auto before = last_.find(id);
-  const auto& unit = now.snapshot.servo.unique_id;
-  if (before != last_.end() && now.has_answered() && before->second.snapshot.servo.unique_id &&
-      before->second.snapshot.servo.unique_id != unit) {
-    // The faults of the previous servo did not go: this is another unit.
-    context_.reporter().note(say<texts::fault_other_servo>(id.value()));
-    last_.erase(before);
-    before = last_.end();
-  }
+  const auto before = last_.find(id);
   // faults in registers that were unreadable before count as present
   const bool is_first = before == last_.end() || before->second.snapshot.readings.empty();
   if (!now.has_answered() && !is_first) {

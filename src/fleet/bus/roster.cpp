@@ -284,12 +284,16 @@ void Roster::forget_gone(Time since) {
 void Roster::forget_doubled(Time since) {
   for (const NodeId id : doubled()) {
     if (doubled_at(id) < since) {
-      doubled_.erase(id);
-      units_.erase(id);
-      watches_[id.value()].begin_anew();
-      begin_unit(known(id));
+      begin_anew(id);
     }
   }
+}
+
+void Roster::begin_anew(NodeId id) {
+  doubled_.erase(id);
+  units_.erase(id);
+  watches_[id.value()].begin_anew();
+  begin_unit(known(id));
 }
 
 void Roster::receive(const Transfer& transfer) {

@@ -47,6 +47,15 @@ std::string joined_ids(const auto& nodes) {
   return ids;
 }
 
+/// "uid:0a1b2c3d4e5f,uid:…": as much of each as was heard.
+std::string selectors_of(std::span<const UniqueIdPrefix> units) {
+  std::string list;
+  for (const UniqueIdPrefix& unit : units) {
+    list += (list.empty() ? "uid:" : ",uid:") + hex(unit);
+  }
+  return list;
+}
+
 class NodeExamination {
  public:
   NodeExamination(const Findings& findings, const Traffic& traffic, MotionLook look)
@@ -168,7 +177,7 @@ class NodeExamination {
     if (servo.static_node_id.value_or(0) != 0 && *servo.static_node_id != id) {
       add("static_node_id", Level::warning, servo.id,
           say<texts::node_static_differs>(id, *servo.static_node_id),
-          say<texts::node_static_differs_fix>(id, id));
+          say<texts::node_static_differs_fix>(id));
     }
   }
 
@@ -217,10 +226,9 @@ class NodeExamination {
 
   void allocation() {
     const Roster& roster = *findings_.roster;
-    if (!roster.pending().empty()) {
-      add("no_node_id", Level::warning, std::nullopt,
-          say<texts::units_ask_for_id>(roster.pending().size()),
-          say<texts::units_ask_for_id_fix>());
+    if (const auto waiting = roster.pending(); !waiting.empty()) {
+      add("no_node_id", Level::warning, std::nullopt, say<texts::units_ask_for_id>(waiting.size()),
+          say<texts::units_ask_for_id_fix>(selectors_of(waiting)));
     }
     if (roster.allocators().size() > 1) {
       add("several_allocators", Level::failure, std::nullopt,

@@ -125,12 +125,13 @@ inline constexpr Text node_may_stall{
 inline constexpr Text node_may_stall_fix{"ask Futaba for the newer firmware",
                                          "双葉電子工業に新しいファームウェアを問い合わせて下さい"};
 inline constexpr Text node_static_differs{
-    "node {} has node ID {} in 0x46: after a restart it will be there",
-    "ノード {} の 0x46 は {} です。再起動後はこの ID になります"};
+    "0x46 of node {} is {} in RAM: whether ROM holds that too, which counts after a restart, is "
+    "not "
+    "known",
+    "ノード {} の 0x46 は RAM 上で {} です。再起動後に有効となる ROM の値は不明です"};
 inline constexpr Text node_static_differs_fix{
-    "keep the ID that it has: blactl alloc --static -n {}; or take the new one: blactl restart -n "
-    "{}",
-    "現在の ID を固定: blactl alloc --static -n {}、新しい ID に切替え: blactl restart -n {}"};
+    "make it permanent: blactl save -n {0}; or take it back: blactl set -n {0} static_node_id={0}",
+    "この値を保存: blactl save -n {0}、元に戻す: blactl set -n {0} static_node_id={0}"};
 inline constexpr Text servo_on_tool_id{
     "node {} is a servo, and 126 and 127 are the node IDs of tools: each of them must evade it",
     "ノード {} はサーボですが、126・127 は設定ツール用のノード ID のため、ツールと競合します"};
@@ -141,8 +142,8 @@ inline constexpr Text units_ask_for_id{"units that ask for a node ID and get non
                                        "ノード ID の割当てを待つ機器: {} 台以上"};
 inline constexpr Text units_ask_for_id_fix{
     "`blactl alloc --once` gives them one for now, or for good: "
-    "blactl alloc --static -n all --range 11-40",
-    "一時的な割当ては `blactl alloc --once`、固定: blactl alloc --static -n all --range 11-40"};
+    "blactl alloc --static -n {} --range 11-40",
+    "一時的な割当ては `blactl alloc --once`、固定: blactl alloc --static -n {} --range 11-40"};
 inline constexpr Text several_allocators{"several nodes allocate node IDs: {}",
                                          "複数のノードが ID を割り当てています: {}"};
 inline constexpr Text several_allocators_fix{"end all of them but one",

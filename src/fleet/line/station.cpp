@@ -2,6 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/change.hpp"
 #include "blactl/fleet/line/line_record.hpp"
@@ -334,10 +335,12 @@ std::optional<Error> Station::configure(const Servo& servo, std::vector<bla::Ass
   return prove(servo, id, settings, record);
 }
 
-/// Reads everything once more: what is recorded was seen after the restart.
+/// Reads everything once more: what is recorded was seen after the restart. What another node wrote
+/// meanwhile is not the unit's fault.
 std::optional<Error> Station::prove(const Servo& servo, NodeId id,
                                     std::span<const bla::Assignment> settings,
                                     LedgerRecord& record) {
+  const Time began = session_.now();
   const std::array ids{id};
   auto read =
       take_snapshots(session_, profiles_, ids, options_.manner.identification, registers_of_record);
@@ -352,6 +355,10 @@ std::optional<Error> Station::prove(const Servo& servo, NodeId id,
     return several(id.value());
   }
   enter(record, held, profiles_);
+  if (const auto writer = session_.roster().setter_of(id, began)) {
+    return Error{Code::state, say<texts::written_by_other>(id.value(), writer->value()),
+                 say<texts::other_writer_hint>(), id.value()};
+  }
   auto wrong = first_wrong(held, settings, record);
   wrong = wrong ? std::move(wrong) : check_rom(held);
   return wrong ? at_station(std::move(*wrong)) : check_faults(held.values(), profiles_, id);

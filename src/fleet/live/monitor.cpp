@@ -1,9 +1,5 @@
 #include "blactl/fleet/live/monitor.hpp"
 
-#include "blactl/fleet/bus/target_texts.hpp"
-#include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/bus/unreachable.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -124,6 +120,7 @@ void Monitor::receive(const Transfer& transfer) {
     return;
   }
   Watched& node = nodes_[header.source];
+  meet(node, *member);
   if (std::exchange(node.boot, member->boots) != member->boots) {
     node.values.clear(); // of the previous run, or of another unit
     node.unique_id.reset();
@@ -147,6 +144,21 @@ void Monitor::receive(const Transfer& transfer) {
       met_.insert(selector.text);
     }
   }
+}
+
+/// Another unit that answers after a silence, with no frame since then of the one before, has come
+/// in its place: they are not two under one ID.
+void Monitor::meet(Watched& node, const Member& member) {
+  if (!member.info || member.info_at == node.unit_at) {
+    return;
+  }
+  const bool is_other = node.unit && member.info->unique_id != *node.unit;
+  if (is_other && member.info_boot == node.boot && member.back_at > node.unit_at) {
+    session_.records().begin_anew(member.id);
+  }
+  node.first_boot = is_other ? member.boots : node.first_boot;
+  node.unit = member.info->unique_id;
+  node.unit_at = member.info_at;
 }
 
 /// Degrees are the field times 100 (errata C10).
@@ -222,7 +234,7 @@ void Monitor::attend(NodeId id) {
   const bool is_named = std::ranges::count(targets_.ids, id) > 0;
   const bool may_be_meant = is_named || (member != nullptr && targets_.need_search() &&
                                          (member->sends_actuator_status() || member->is_servo));
-  if (!may_be_meant || session_.is_replay() || !session_.may_ask()) {
+  if (!may_be_meant || !asks()) {
     return;
   }
   Watched& node = nodes_[id];
@@ -246,6 +258,10 @@ void Monitor::plan_rounds() {
     }
   }
   plan_.round = std::max<Duration>(options_.period, reads * read_time * 100 / share_percent);
+}
+
+bool Monitor::asks() const {
+  return !session_.is_replay() && session_.may_ask();
 }
 
 /// Whether it does not send its angle, or not exactly.
@@ -278,8 +294,12 @@ std::optional<PollPlan> Monitor::further(NodeId id, const Watched& node) const {
   return more;
 }
 
-/// From its responses to us, else to others.
+/// From its responses to us, else to others. Where nobody asks after a silence, who it is stays
+/// open.
 Servo Monitor::servo(const Member& member, const Watched& node) const {
+  if (!asks() && member.may_be_another()) {
+    return {.id = member.id, .is_servo = member.sends_actuator_status() || member.is_servo};
+  }
   if (member.is_known()) {
     return member.servo();
   }
@@ -301,14 +321,16 @@ Servo Monitor::servo(const Member& member, const Watched& node) const {
 
 LiveServo Monitor::live(const Member& member, const Watched& node, Time now) const {
   const bool is_doubled = session_.roster().is_doubled(member.id);
+  const bool is_in_doubt = asks() && member.may_be_another();
+  const bool is_told = !is_in_doubt && now - member.status_at < offline_time;
   LiveServo out{.servo = is_doubled ? Servo{.id = member.id} : servo(member, node),
-                .status = member.status,
+                .status = is_told ? member.status : std::nullopt,
                 .first_heard = member.first_heard,
                 .last_heard = member.last_heard,
-                .restarts = member.boots,
+                .restarts = member.boots - node.first_boot,
                 .is_gone = now - member.last_heard >= offline_time,
                 .is_doubled = is_doubled,
-                .is_stale = is_doubled};
+                .is_stale = is_doubled || is_in_doubt};
   for (const auto& [id, other] : session_.roster().members()) {
     // in this order: whether it has moved is checked against all others
     if (id != member.id && other.unique_id() && other.unique_id() == out.servo.unique_id &&
@@ -320,7 +342,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
     const bla::Parameter* parameter = out.servo.identity.parameter(places[field]);
     out.parameters[field] = parameter != nullptr ? parameter : profiles_.find(places[field]);
   }
-  if (out.is_doubled) {
+  if (out.is_stale) {
     return out;
   }
   const bla::Values values = values_of(node.values);
@@ -335,7 +357,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
     out.limits[field] = {bla::find(values, limits[field].low),
                          bla::find(values, limits[field].high)};
   }
-  out.is_stale = is_stale(out, now);
+  out.is_stale = (member.status && !is_told) || is_stale(out, now);
   out.has_turned = options_.watches_turns && node.turns.has_turned(now);
   return out;
 }
@@ -350,62 +372,6 @@ bool Monitor::is_stale(const LiveServo& servo, Time now) const {
                                                     : plan_.round * turns;
     return value && now - value->at > status_silence + 2 * turn;
   });
-}
-
-std::vector<LiveServo> Monitor::servos(Time now) const {
-  std::vector<LiveServo> out;
-  for (const auto& [id, member] : session_.roster().members()) {
-    const auto node = nodes_.find(id);
-    if (node != nodes_.end() && session_.roster().heard(id) && !member.is_foreign() &&
-        is_meant(member, node->second) && !session_.roster().has_moved(member)) {
-      out.push_back(live(member, node->second, now));
-    }
-  }
-  return out;
-}
-
-/// At present: one that has just restarted is unknown until it has responded.
-bool Monitor::is_met(const Selector& selector) const {
-  return std::ranges::any_of(nodes_, [&](const auto& entry) {
-    const Member* member = session_.roster().find(entry.first);
-    return member != nullptr && selector.matches(servo(*member, entry.second), profiles_);
-  });
-}
-
-std::vector<Error> Monitor::missing(Time now) const {
-  const Roster& roster = session_.roster();
-  std::vector<Error> errors;
-  for (const NodeId id : targets_.ids) {
-    if (!roster.heard(id)) {
-      errors.push_back(session_.is_replay() ? unrecorded(id) : silent(roster, id));
-    } else if (const Member& member = roster.member(id); member.is_foreign()) {
-      errors.push_back(not_a_servo(id, member.info->name));
-    }
-  }
-  std::set<NodeId> shared; // an unmet one may be one of those
-  for (const Selector& selector : targets_.selectors) {
-    if (!is_met(selector)) {
-      shared = roster.doubled();
-      if (shared.empty() && !met_.contains(selector.text)) {
-        errors.push_back(nothing_matches(roster, selector));
-      }
-    }
-  }
-  for (const NodeId id : shared) {
-    errors.push_back(doubled(roster, id));
-  }
-  const auto live = servos(now);
-  if (errors.empty() && targets_.need_search() && live.empty()) {
-    errors.push_back(no_servo(roster));
-  }
-  for (const LiveServo& servo : live) {
-    if (!targets_.mean_all() && servo.is_gone && !servo.is_doubled) {
-      const std::uint8_t id = servo.servo.id.value();
-      errors.push_back(
-          {Code::timeout, say<texts::node_gone>(id), say<texts::no_answer_hint>(), id});
-    }
-  }
-  return errors;
 }
 
 } // namespace blactl::fleet

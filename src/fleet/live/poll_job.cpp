@@ -5,6 +5,7 @@
 
 namespace blactl::fleet {
 
+using dronecan::GetNodeInfo;
 using dronecan::Outcome;
 using dronecan::Step;
 
@@ -33,6 +34,7 @@ Step PollJob::next(const Outcome& outcome) {
   }
   switch (at_) {
   case At::identify: return identify(outcome);
+  case At::unit:
   case At::read: return take_answer(outcome);
   case At::begin:
   case At::rest: break;
@@ -60,11 +62,27 @@ bool PollJob::has_restarted() const {
   return servo_ && servo_->boot != roster_.member(id_).boots;
 }
 
+/// Whether another unit may be here: it is asked for its unique ID before anything else.
+bool PollJob::is_in_doubt() const {
+  return servo_ && roster_.member(id_).may_be_another();
+}
+
+Step PollJob::ask_unit() {
+  at_ = At::unit;
+  Patience once = options_.patience;
+  once.retries = 0;
+  return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), once);
+}
+
 Step PollJob::begin_round(Time now) {
   if (!servo_ || has_restarted()) {
     servo_.reset();
     identification_.emplace(roster_, id_, profiles_, options_);
     return identify({Outcome::Kind::start, {}, now});
+  }
+  if (is_in_doubt()) {
+    left_.clear();
+    return ask_unit();
   }
   round_began_ = now;
   const auto further = further_();
@@ -90,6 +108,9 @@ Step PollJob::take_answer(const Outcome& outcome) {
 }
 
 Step PollJob::read_next(Time now) {
+  if (is_in_doubt()) {
+    return ask_unit();
+  }
   if (left_.empty() || has_restarted()) {
     return rest(std::max(now, round_began_ + plan_.round));
   }
@@ -103,7 +124,8 @@ Step PollJob::read_next(Time now) {
 
 Step PollJob::rest(Time until) {
   at_ = At::rest;
-  return dronecan::Pause{.until = until, .ready = [this] { return has_restarted(); }};
+  return dronecan::Pause{.until = until,
+                         .ready = [this] { return has_restarted() || is_in_doubt(); }};
 }
 
 /// Waits until something is heard from it.
@@ -117,7 +139,7 @@ Step PollJob::wait_for_sign(Time now) {
 
 Step PollJob::wait_for_restart() {
   at_ = At::rest;
-  return dronecan::Pause{.ready = [this] { return has_restarted(); }};
+  return dronecan::Pause{.ready = [this] { return has_restarted() || is_in_doubt(); }};
 }
 
 Step PollJob::end() {

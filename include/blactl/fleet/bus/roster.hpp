@@ -75,6 +75,11 @@ struct Member {
     return info && info_boot == boots && info->unique_id != unique_id;
   }
 
+  /// Whether another unit may have come in a silence since this one told its unique ID.
+  [[nodiscard]] bool may_be_another() const {
+    return info && info_boot == boots && back_at > info_at;
+  }
+
   /// Whether it has identified itself as another device than a BLA servo.
   [[nodiscard]] bool is_foreign() const { return identified && !is_servo && info; }
 
@@ -209,6 +214,10 @@ class Roster {
   /// has to be identified, as after a restart. For commands that keep watching: those that change
   /// servos do not forget.
   void forget_doubled(Time since);
+
+  /// Another unit has come in a silence: what is known of this ID was told by the one before. For
+  /// commands that keep watching.
+  void begin_anew(dronecan::NodeId id);
 
   /// Forgets the nodes that were not heard since then: another unit that comes on such an ID is no
   /// second one; and allocators that have been silent. For a command that sees one servo

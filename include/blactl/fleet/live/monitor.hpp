@@ -44,13 +44,13 @@ struct LiveServo {
   std::array<const bla::Parameter*, live_fields> parameters{}; ///< as defined by its model
   std::array<LiveLimits, live_fields> limits{};                ///< as far as they were read
   std::vector<bla::Fault> faults{};                            ///< as far as known, the worst first
-  std::optional<dronecan::NodeStatus> status{};                ///< of its last NodeStatus
+  std::optional<dronecan::NodeStatus> status{};                ///< told in the last offline_time
   Time first_heard{}, last_heard{};
-  std::uint32_t restarts = 0;                  ///< since it was first heard
+  std::uint32_t restarts = 0;                  ///< of this unit, as far as heard
   std::optional<dronecan::NodeId> former_id{}; ///< its earlier node ID
   bool is_gone = false;                        ///< not heard for offline_time
   bool is_doubled = false; ///< two units send under its ID: no values of either are shown
-  bool is_stale = false;   ///< a value is overdue or missing
+  bool is_stale = false;   ///< a value is overdue or missing, or it may be another unit's
   bool has_turned = false; ///< if watched: its shaft was turned, see TurnWatch
 
   [[nodiscard]] const std::optional<LiveValue>& value(LiveField field) const {
@@ -65,7 +65,8 @@ struct LiveServo {
 /// Monitors servos for its lifetime. Angles come from actuator.Status, which every BLA servo sends
 /// ten times a second (degrees are its field times 100; errata C10); the rest, and what that cannot
 /// represent exactly, is read in turn. Without a node ID of our own, and on a recording, only
-/// transfers on the bus are used: responses to others, too.
+/// transfers on the bus are used: responses to others, too. After a silence in which another unit
+/// may have come, nothing is shown as a servo's until it has told its unique ID again.
 class Monitor final : private dronecan::Service {
  public:
   /// The share of the bus for requests and responses, at most.
@@ -110,6 +111,9 @@ class Monitor final : private dronecan::Service {
     std::optional<Time> status_at{}; ///< of its last actuator.Status
     bool is_far = false;             ///< beyond the exact range of actuator.Status
     std::uint32_t boot = 0;          ///< the run of the servo (roster) that all this belongs to
+    std::optional<dronecan::UniqueId> unit{}; ///< who answered GetNodeInfo last
+    Time unit_at{};                           ///< and when
+    std::uint32_t first_boot = 0;             ///< the first run of that unit
     std::unique_ptr<PollJob> poll{};
   };
 
@@ -119,12 +123,14 @@ class Monitor final : private dronecan::Service {
 
   void advance(Time now) override;
 
+  void meet(Watched& node, const Member& member);
   void take_angle(Watched& node, const dronecan::Transfer& transfer);
   static void tell_angle(Watched& node, std::int64_t decideg, Time at);
   void take_register(Watched& node, const dronecan::Transfer& transfer);
   void forget_past_faults(Watched& node);
   void attend(dronecan::NodeId id);
   void plan_rounds();
+  [[nodiscard]] bool asks() const;
   [[nodiscard]] bool needs_angle(const Watched& node) const;
   [[nodiscard]] std::optional<PollPlan> further(dronecan::NodeId id, const Watched& node) const;
   [[nodiscard]] bool is_meant(const Member& member, const Watched& node) const;

@@ -20,7 +20,8 @@ struct PollPlan {
 /// Identifies a servo and then reads it in rounds, until it is cancelled or the node turns out not
 /// to be a BLA servo. Its responses are taken from the bus like all traffic: the job stores
 /// nothing. A servo that restarted is identified again; a silent one is asked again as soon as it
-/// is heard. One that is not selected is left alone until it restarts: it may be another unit then.
+/// is heard, and who it is if another one may have come in the silence. One that is not selected is
+/// left alone until it restarts: it may be another unit then.
 class PollJob final : public dronecan::Job {
  public:
   /// The additional registers to read from a servo once it is identified; empty: it is not
@@ -37,10 +38,11 @@ class PollJob final : public dronecan::Job {
   [[nodiscard]] bool polls() const { return polls_; }
 
  private:
-  enum class At : std::uint8_t { begin, identify, rest, read };
+  enum class At : std::uint8_t { begin, identify, rest, unit, read };
 
   [[nodiscard]] dronecan::Step identify(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step begin_round(Time now);
+  [[nodiscard]] dronecan::Step ask_unit();
   [[nodiscard]] dronecan::Step take_answer(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step read_next(Time now);
   [[nodiscard]] dronecan::Step rest(Time until);
@@ -48,6 +50,7 @@ class PollJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step wait_for_restart();
   [[nodiscard]] dronecan::Step end();
   [[nodiscard]] bool has_restarted() const;
+  [[nodiscard]] bool is_in_doubt() const;
 
   Roster& roster_;
   dronecan::NodeId id_;
