@@ -56,8 +56,8 @@ std::optional<NodeId> next_id(const UnitChange& unit) {
 
 /// A unit that failed, and whose memory may hold this ID for its next start.
 bool may_start_with(const UnitChange& unit, NodeId id) {
-  const bool held_it = !unit.has_made_way &&
-                       unit.plan.before.raw(bla::address::static_node_id) == id.value();
+  const bool held_it =
+      !unit.has_made_way && unit.plan.before.raw(bla::address::static_node_id) == id.value();
   return unit.has_failed() && (held_it || next_id(unit) == id);
 }
 
