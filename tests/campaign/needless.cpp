@@ -21,6 +21,10 @@ constexpr std::array reasons{
     Reason{"bursts", "100 ms of disturbance twice a second drive the adapter to bus-off."},
     Reason{"loss", "Of ten or twenty frames one is lost: a response to GetNodeInfo has eleven, and "
                    "`--retries` is the user's."},
+    Reason{"bit_flips",
+           "A bit of one frame in a hundred is another one: of GetNodeInfo's responses "
+           "with their eleven frames one in ten is not taken, now and then three in "
+           "a row."},
     Reason{"late_answers",
            "1.5 s late is later than three requests wait; `--timeout` is the user's."},
     Reason{"bus_off", "The adapter is off until the command is run again."},
