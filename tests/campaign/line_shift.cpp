@@ -20,7 +20,8 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr std::uint8_t warning_bits = 0x1A, failure_bits = 0x1B, version_at = 0x52;
+constexpr std::uint8_t warning_bits = 0x1A, failure_bits = 0x1B, servo_id_at = 0x45,
+                       version_at = 0x52;
 
 class OneShift {
  public:
@@ -164,6 +165,11 @@ class OneShift {
       return "firmware_too_old";
     }
     if (label && (*label)["serial_number"] != serial) {
+      return "label_mismatch";
+    }
+    const bool names_other_id =
+        label && label->contains("servo_id") && (*label)["servo_id"] != state.rom.at(servo_id_at);
+    if (ledger_.is_finished_before(record) && !shift_.is_redo && names_other_id) {
       return "label_mismatch";
     }
     if (ledger_.is_finished_before(record) && !shift_.is_redo) {

@@ -61,8 +61,9 @@ std::vector<UniqueIdPrefix> AllocationWatch::pending() const {
 }
 
 std::optional<Time> AllocationWatch::asked_at(const dronecan::UniqueId& unique_id) const {
-  const auto waiting = std::ranges::find_if(
-      requests_, [&](const auto& entry) { return dronecan::begins_with(unique_id, entry.first); });
+  const auto waiting = std::ranges::find_if(requests_, [&](const auto& entry) {
+    return entry.second.last > entry.second.given && dronecan::begins_with(unique_id, entry.first);
+  });
   return waiting != requests_.end() ? std::optional(waiting->second.last) : std::nullopt;
 }
 
