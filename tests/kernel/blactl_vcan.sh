@@ -136,8 +136,12 @@ for _ in $(seq 34); do
   "$blactl" get -n 11 soft_start >/dev/null || fail "get failed"
 done
 witness_stop
-expect_frames 68 1E018BFF # who is it, and was it the same one to the end
-expect_frames 204 1E0B8BFF # 0x50-0x53, 0x45 and the parameter
+# who is it, and was it the same one to the end; a machine that is busy lets the simulator pause, and
+# who it is, with its five registers, is asked anew
+asked=$(frames_with 1E018BFF)
+anew=$((asked - 68))
+[ "$anew" -ge 0 ] || fail "expected 68 questions who it is, the witness saw $asked"
+expect_frames $((204 + 5 * anew)) 1E0B8BFF # 0x50-0x53, 0x45 and the parameter
 
 # frames_of LOG [FILTER]: the frames of a log without their times and interfaces; marks left out.
 frames_of() {
