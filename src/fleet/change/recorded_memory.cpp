@@ -273,8 +273,7 @@ bla::Values History::known_rom(const Snapshot& ram, const Session& session) {
 
 bla::Values History::saved_since_start(const Servo& servo, const Session& session) const {
   const auto started = start_of(servo, session);
-  auto entry =
-      started ? snapshots_.last(*servo.unique_id) : Result<std::optional<state::SnapshotEntry>>();
+  auto entry = started ? last_of(servo) : Result<std::optional<state::SnapshotEntry>>();
   while (entry && *entry && !(*entry)->saved && (*entry)->at >= *started) {
     entry = snapshots_.before(**entry);
   }

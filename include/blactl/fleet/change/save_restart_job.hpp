@@ -112,8 +112,8 @@ class SaveRestartJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step check_unit(const dronecan::Outcome& outcome);
   [[nodiscard]] bool is_leaving(dronecan::NodeId id) const;
   [[nodiscard]] bool is_expected_id_taken() const;
-  [[nodiscard]] const Member* servo_id_holder() const;
-  [[nodiscard]] std::optional<dronecan::NodeId> servo_id_given() const;
+  [[nodiscard]] const Member* newcomer_with_servo_id() const;
+  [[nodiscard]] std::optional<Error> taken_id() const;
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step request(Time now);
   [[nodiscard]] dronecan::Step judge_answer(const dronecan::Outcome& outcome);
