@@ -113,7 +113,7 @@ TEST_CASE("two servos that take turns at one plug are not made one") {
         .world(1002, {{"plugged", "off"}}, "0ms");
     const auto at = [&](int later) { return std::to_string(gone + later) + "ms"; };
     scene.world(1001, {{"plugged", "off"}}, at(0)).world(1002, {{"plugged", "on"}}, at(300));
-    scene.world(1002, {{"plugged", "off"}}, at(800)).world(1001, {{"plugged", "on"}}, at(1100));
+    scene.world(1002, {{"plugged", "off"}}, at(700)).world(1001, {{"plugged", "on"}}, at(1000));
     const Result result = scene.run({"scan", "--json"});
     INFO(gone << ' ' << result.out << result.err);
     const auto nodes = json(result.out)["nodes"];
