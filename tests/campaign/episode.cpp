@@ -525,6 +525,21 @@ void take_first_dynamic_id(json& servos, Chance& chance) {
   }
 }
 
+/// Now and then the allocator has fewer node IDs to give than there are units that ask.
+void narrow(Episode& episode) {
+  Chance chance(episode.seed, "range");
+  if (!chance.comes(0.3)) {
+    return;
+  }
+  const auto first = chance.whole(60, 63);
+  const std::string range = fmt::format("{}-{}", first, first + chance.whole(0, 1));
+  for (Command& command : episode.steps) {
+    if (command.verb() == "alloc" && command.has("--once")) {
+      command.words.insert(command.words.end(), {"--range", range});
+    }
+  }
+}
+
 /// What no client can tell apart, whatever it asks, is left out.
 void spare_the_undecidable(Episode& episode) {
   const auto has_any_of = [&](std::initializer_list<const char*> kinds) {
@@ -582,6 +597,7 @@ Episode make_episode(std::uint64_t seed) {
     }
     take_first_dynamic_id(episode.scenario["servos"], asking);
     episode.steps.insert(episode.steps.begin(), {.words = {"alloc", "--once"}});
+    narrow(episode);
   }
   if (has_liar(episode)) {
     episode.steps.push_back(

@@ -384,6 +384,35 @@ void check_allocation(const Step& step) {
   }
 }
 
+/// No unit gets the node ID of another that was heard there.
+void check_given(const Step& step) {
+  if (step.episode.has("allocator")) {
+    return;
+  }
+  std::map<std::uint8_t, std::int64_t> holders;
+  for (const auto& [serial, servo] : step.before) {
+    if (servo.node_id != 0) {
+      holders[servo.node_id] = serial;
+    }
+  }
+  for (const sim::ServoEvent& event : step.events) {
+    const std::uint8_t id = event.node_id.value();
+    if (event.kind == sim::ServoEvent::Kind::restart) {
+      holders.erase(id);
+    }
+    if (event.kind != sim::ServoEvent::Kind::allocated) {
+      continue;
+    }
+    const auto held = holders.try_emplace(id, event.serial_number).first;
+    const std::int64_t holder = held->second;
+    held->second = event.serial_number;
+    const bool is_other = holder != event.serial_number && step.copies(holder).empty();
+    const bool is_heard = step.outcome.record.first_told_by({id}) + on_its_way < event.at;
+    require(!is_other || !is_heard || !step.accidents(holder).empty(),
+            fmt::format("{} was given to {}, but {} has it", id, event.serial_number, holder));
+  }
+}
+
 } // namespace
 
 void judge(const Step& step) {
@@ -395,6 +424,7 @@ void judge(const Step& step) {
   check_rom_writes(step);
   check_conflict(step);
   check_allocation(step);
+  check_given(step);
   bool all_reached = true;
   const auto told = told_servos(step);
   for (const auto& [serial, node] : told) {
