@@ -193,6 +193,9 @@ const std::map<std::string, Plant>& plants() {
                     {"node_id", 104},
                     {"armed", true},
                     {"begins", ms(d.chance.whole(0, 15000))}});
+         if (d.chance.comes(0.5)) { // one word of a node says nothing of another
+           d.foreign({{"kind", "node"}, {"node_id", 106}, {"armed", false}});
+         }
        }},
       {"driven",
        [](const Draft& d) {
