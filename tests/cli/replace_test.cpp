@@ -99,6 +99,16 @@ TEST_CASE("a new servo that waits for a node ID takes the place of a broken one"
   CHECK(place.fleet.run({"diff", place.file, "-n", "12"}).status == 0);
 }
 
+TEST_CASE("a new servo that has just been switched on is waited for until it can have asked") {
+  Scene scene = with(0);
+  scene.joins(fresh, "700ms");
+  const Bench bench;
+  const Result done =
+      scene.run(bench, {"replace", bench.file("wing.json", wing), "right aileron", "-y"});
+  INFO(done.err);
+  CHECK(done.status == 0);
+}
+
 TEST_CASE("replace repeated after its end changes nothing, and ends well") {
   const Place place(with(33));
   REQUIRE(place.replace().status == 0);

@@ -63,6 +63,7 @@ class Run : WritingRun {
   void tell_waiting();
   [[nodiscard]] bool let_in();
   [[nodiscard]] bool may_let_in();
+  [[nodiscard]] bool may_be_unheard();
   [[nodiscard]] Change::Options options();
   [[nodiscard]] bool prepare(Change& change);
   [[nodiscard]] bool confirm(const Change& change);
@@ -154,6 +155,9 @@ bool Run::find() {
   if (!look_for(*targets)) {
     return false;
   }
+  if (goals_.may_wait && may_be_unheard() && !(look_around() && look_for(*targets))) {
+    return false;
+  }
   if (goals_.may_wait && may_let_in() && !(let_in() && look_around() && look_for(*targets))) {
     return false;
   }
@@ -180,6 +184,13 @@ bool Run::may_let_in() {
   const bool may_wait = request_.waiting == Waiting::if_missing ? !roster.pending().empty()
                                                                 : !roster.requests().empty();
   return !request_.dry_run && may_wait && context_.may_allocate();
+}
+
+/// Whether servos that wait for a node ID may all have been unheard: each asks once a second, and
+/// one request can be lost, or its servo has just been switched on.
+bool Run::may_be_unheard() {
+  return !request_.dry_run && context_.session().roster().requests().empty() &&
+         context_.may_allocate();
 }
 
 bool Run::let_in() {
