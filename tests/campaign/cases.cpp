@@ -251,7 +251,17 @@ std::vector<Sweep::Case> Sweep::cases() {
        .before = {many},
        .command = words({"export", "all.json", "-n", "all", "-y"}),
        .is_repeatable = false},
-      {.name = "undo", .before = {saved}, .command = words({"undo", "-y"}), .is_repeatable = false},
+      {.name = "undo",
+       .before = {saved},
+       .command = words({"undo", "-y"}),
+       .is_repeatable = false,
+       .takes_back = true},
+      {.name = "undo of what another tool has saved since",
+       .before = {in_ram, words({"scan", "--listen", "30"})},
+       .command = words({"undo", "-y"}),
+       .is_repeatable = false,
+       .takes_back = true,
+       .orders = {{{"at", "25s"}, {"to", 11}, {"order", "save"}}}},
       {.name = "alloc --once",
        .before = {},
        .command = words({"alloc", "--once"}),
@@ -285,6 +295,8 @@ std::vector<Sweep::Refused> Sweep::refused() {
   const Command hold = words({"set", "-n", "11", "timeout_action=hold", "-y"});
   Command apply_unasked = apply({{"reverse", "on"}}, json::object());
   std::erase(apply_unasked.words, "-y");
+  Command of_another_model = replace({{"smoothing", "off"}});
+  of_another_model.fleet["servos"][0]["about"] = {{"model", "BLA34-28U-AB"}};
   constexpr int usage = 2, not_confirmed = 7;
   return {{.episode = usual, .commands = harmful(usual)},
           {.episode = usual,
@@ -312,7 +324,8 @@ std::vector<Sweep::Refused> Sweep::refused() {
                         words({"alloc", "--static", "-n", "serial:240900001", "--id", "40", "-y"}),
                         apply({{"smoothing", "off"}}, json::object())},
            .are_told_apart = false,
-           .status = usage}};
+           .status = usage},
+          {.episode = episode_of({11}), .commands = {of_another_model}}};
 }
 
 /// Each way to say which servos are meant.

@@ -57,6 +57,17 @@ struct Draft {
   }
 };
 
+/// Every servo, alone or as the first of as many as one ArrayCommand takes.
+json commanded(Chance& chance) {
+  json ids = json::array({255});
+  constexpr std::size_t most = 15;
+  const std::size_t count = chance.comes(0.5) ? most : 1;
+  for (int id = 200; ids.size() < count; ++id) {
+    ids.push_back(id);
+  }
+  return ids;
+}
+
 std::string ms(std::int64_t count) {
   return fmt::format("{}ms", count);
 }
@@ -201,7 +212,7 @@ const std::map<std::string, Plant>& plants() {
        [](const Draft& d) {
          d.foreign({{"kind", "node"},
                     {"node_id", 105},
-                    {"commands", {{"servo_ids", json::array({255})}, {"rate", 50}}},
+                    {"commands", {{"servo_ids", commanded(d.chance)}, {"rate", 50}}},
                     {"begins", ms(d.chance.whole(0, 15000))}});
        }},
       {"allocator",
@@ -336,7 +347,7 @@ class Commands {
     const auto& known = limits().of(model);
     auto it = known.begin();
     std::advance(it, chance_.whole(0, static_cast<std::int64_t>(known.size()) - 1));
-    const auto [min, max] = it->second;
+    const std::int64_t min = it->second.min, max = it->second.max;
     return fmt::format("{:#04x}={}", it->first,
                        chance_.one_of<std::int64_t>({min, max, min - 1, max + 1}));
   }

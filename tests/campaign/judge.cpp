@@ -220,10 +220,11 @@ class Told {
         require_held("ROM", after_.rom, address, due);
       }
     }
-    const std::int64_t factory_limit = 1799;
-    require_held("RAM", after_.ram, 0x38, factory_limit);
-    if (saved) {
-      require_held("ROM", after_.rom, 0x38, factory_limit);
+    for (const auto& [address, limit] : limits().of(step_.model(serial_))) {
+      require_held("RAM", after_.ram, address, limit.factory);
+      if (saved) {
+        require_held("ROM", after_.rom, address, limit.factory);
+      }
     }
   }
 

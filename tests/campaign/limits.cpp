@@ -59,12 +59,12 @@ LimitTable::LimitTable(const std::string& folder) {
     auto& known = models_[model];
     for (const auto& row : common) {
       if (row[5] == "RW" && row[11] == "yes" && !row[8].empty()) {
-        known[address_of(row[0])] = {std::stoll(row[8]), std::stoll(row[9])};
+        known[address_of(row[0])] = {std::stoll(row[8]), std::stoll(row[9]), std::stoll(row[7])};
       }
     }
     for (const auto& row : special) {
       if (is_meant(row, model) && !row[5].empty() && address_of(row[3]) >= 0x20) {
-        known[address_of(row[3])] = {std::stoll(row[5]), std::stoll(row[6])};
+        known[address_of(row[3])] = {std::stoll(row[5]), std::stoll(row[6]), std::stoll(row[4])};
       }
     }
     known.erase(0x45);

@@ -10,6 +10,7 @@ namespace blactl::campaign {
 
 struct Limits {
   std::int64_t min = 0, max = 0;
+  std::int64_t factory = 0; ///< the value after ERASE
 };
 
 /// Tables 3-1 to 3-12.

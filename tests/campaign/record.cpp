@@ -13,6 +13,9 @@ namespace {
 constexpr std::uint16_t restart_node = 5, execute_opcode = 10, get_set = 11;
 constexpr std::uint16_t node_status = 341, array_command = 1010, arming_status = 1100;
 constexpr std::uint8_t fully_armed = 255, every_servo = 255;
+
+/// Before the payload of a transfer of several frames.
+constexpr std::size_t crc_bytes = 2;
 constexpr std::uint8_t integer_tag = 1;
 
 bool is_own(const OnWire& frame) {
@@ -157,7 +160,7 @@ Time Record::armed_at() const {
 Time Record::driven_at() const {
   return first_of(frames_, [](const OnWire& frame) {
     return !frame.is_service() && frame.type() == array_command && !is_own(frame) &&
-           frame.starts() && frame.frame.data[0] == every_servo;
+           frame.starts() && frame.frame.data[frame.ends() ? 0 : crc_bytes] == every_servo;
   });
 }
 

@@ -34,6 +34,10 @@ const json& Step::setup(std::int64_t serial) const {
   });
 }
 
+std::string Step::model(std::int64_t serial) const {
+  return setup(serial)["model"];
+}
+
 std::set<std::uint8_t> Step::node_ids(std::int64_t serial) const {
   std::set<std::uint8_t> ids{before.at(serial).node_id, after.at(serial).node_id};
   for (const sim::ServoEvent& event : events) {

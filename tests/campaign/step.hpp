@@ -31,6 +31,8 @@ struct Step {
   std::optional<States>
       tried{}; ///< before the first of the runs that broke off, which this repeats
 
+  [[nodiscard]] std::string model(std::int64_t serial) const;
+
   /// All node IDs that a servo had.
   [[nodiscard]] std::set<std::uint8_t> node_ids(std::int64_t serial) const;
 

@@ -179,8 +179,10 @@ Sweep::Calm Sweep::play_calm(const Case& one, Kind kind) const {
   const Folder folder(folder_);
   const Episode episode = episode_of(one);
   World world(episode.scenario, folder_);
+  const States first = world.states();
   const Step step = begin(world, episode, one, std::span(&counting, 1));
-  return {.goal = step.after,
+  return {.first = first,
+          .goal = step.after,
           .places = counting.seen,
           .requests = requests_in(step.outcome.record),
           .status = step.outcome.status};
@@ -354,6 +356,9 @@ void Sweep::check(World& world, const Case& one, std::span<const Disturbance> di
   };
   if (std::ranges::none_of(disturbances, is_ended)) {
     judge(step);
+    if (one.takes_back && step.outcome.status == 0) {
+      require_same(calm.first, step.after, "undo has not brought everything back");
+    }
   }
   // an opcode that the servo does not heed, and its repetition lost, are two faults
   const bool is_unheeded = one.first.contains(json::json_pointer("/faults/ignore_opcodes"));

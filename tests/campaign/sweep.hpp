@@ -63,6 +63,7 @@ class Sweep {
     bool is_repeatable = true;
     bool is_undoable = false;      ///< `undo` brings back all that was before
     bool is_written_again = false; ///< what a restart in the middle has dropped
+    bool takes_back = false;       ///< each servo is as it was before all of it
     std::string ended_by{};        ///< after this happening nothing more may be sent
     std::vector<int> node_ids{11, 12, 13};
     nlohmann::json first = nlohmann::json::object(); ///< what is special about the first servo
@@ -70,6 +71,7 @@ class Sweep {
   };
 
   struct Calm {
+    States first; ///< before everything
     States goal;
     std::size_t places = 0;
     std::size_t requests = 0;
