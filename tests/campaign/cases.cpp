@@ -257,7 +257,7 @@ std::vector<Sweep::Case> Sweep::cases() {
        .is_repeatable = false,
        .takes_back = true},
       {.name = "undo of what another tool has saved since",
-       .before = {in_ram, words({"scan", "--listen", "30"})},
+       .before = {in_ram, words({"trace", "--duration", "30"})},
        .command = words({"undo", "-y"}),
        .is_repeatable = false,
        .takes_back = true,
