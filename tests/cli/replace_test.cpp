@@ -20,6 +20,7 @@ namespace {
 
 constexpr const char* model = "BLA21-12U-AB";
 constexpr int broken = 240900002, fresh = 240900777;
+constexpr const char* old_uid = "a1b20000000000000000000000000002";
 
 /// As a person writes it: the layout must stay.
 const std::string wing = R"({
@@ -203,6 +204,26 @@ TEST_CASE("a broken servo that comes back meanwhile is told before the file is w
     told += contains(replaced.err, words) ? 1 : 0;
   }
   CHECK(told >= 3);
+}
+
+TEST_CASE(
+    "a broken servo that comes back on the node ID of the new one is named, and its hint ends it") {
+  Scene scene = with(33);
+  scene.servo(model, 12, {{"serial_number", broken}, {"servo_id", 2}, {"unique_id", old_uid}});
+  scene.joins(broken, "4500ms"); // the new servo has its node ID by then
+  const Place place(scene);
+  const std::string told = "and by uid:" + std::string(old_uid) +
+                           ", as its node ID tells the old servo (serial number 240900002)";
+  const Result first = place.replace();
+  INFO(first.err);
+  check_error(first, 9, "duplicate_node_id", "the servo is done, its file is not: ");
+  for (const Arguments& more : {Arguments{}, Arguments{"-n", "33"}, Arguments{"--dry-run"}}) {
+    const Result again = place.replace(more);
+    INFO(again.err);
+    check_error(again, 9, "duplicate_node_id", told);
+    CHECK(contains(again.err, "take the old one off the bus"));
+  }
+  CHECK(content(place.file) == wing);
 }
 
 TEST_CASE("the fleet file keeps its mode, and one that is write-protected is refused") {

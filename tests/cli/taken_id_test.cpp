@@ -101,3 +101,28 @@ TEST_CASE("an ID in the memory of a servo that failed is not given to another on
   CHECK(contains(result.err, "node 11 was to get node ID 16, whose holder has failed"));
   CHECK(fleet.rom_writes() == 0);
 }
+
+TEST_CASE("a servo that fails after it has made way tells the node ID on which it responds") {
+  int on_its_way = 0;
+  for (int at = 2000; at <= 7000; at += 100) {
+    Scene scene;
+    nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+    for (const int number : {1, 2}) {
+      scene.servo("BLA21-12U-AB", 10 + number, {{"serial_number", number}, {"servo_id", number}});
+      entries.push_back({{"name", std::to_string(number)},
+                         {"match", {{"serial_number", number}}},
+                         {"set", {{"static_node_id", 13 - number}}}});
+    }
+    scene.foreign(40, {{"armed", true}, {"joins", std::to_string(at) + "ms"}});
+    const Fleet fleet(scene);
+    const Result moved = fleet.apply({{"schema", "blactl-fleet/1"}, {"servos", entries}});
+    INFO(at << moved.err << moved.out);
+    const auto got = json(fleet.run({"get", "-n", "serial:1", "static_node_id", "--json"}).out);
+    const auto told = json(moved.out)["nodes"];
+    if (moved.status != 0 && told.size() == 2) {
+      CHECK(told[0]["node_id_after"] == got["nodes"][0]["node_id"]);
+      on_its_way += got["nodes"][0]["node_id"] == 125 ? 1 : 0;
+    }
+  }
+  CHECK(on_its_way > 0);
+}

@@ -23,7 +23,8 @@ class StateFile;
 /// The ROM of one unit at its start: RAM was read completely before anything was written to it.
 struct RomProof {
   dronecan::UniqueId unique_id{};
-  Registers rom{};               ///< all registers that SAVE keeps; none: it could not be read
+  Registers
+      rom{}; ///< all registers that SAVE keeps; if it could not be read, at most the IDs before
   WallTime started{};            ///< by its uptime at the proof
   std::chrono::seconds uptime{}; ///< at the proof
   /// The wall time at which the clock that waits (CLOCK_MONOTONIC) was 0: another one once the wall

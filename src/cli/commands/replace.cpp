@@ -111,6 +111,7 @@ class Replacement {
  private:
   [[nodiscard]] std::optional<std::string> waiting_successor(const Whom& whom) const;
   [[nodiscard]] bool has_taken_place(const dronecan::UniqueId& unit) const;
+  [[nodiscard]] std::optional<Error> old_beside_successor(const fleet::Roster& roster) const;
   [[nodiscard]] Result<void> look_for_broken(const fleet::GoalResult& result);
   [[nodiscard]] Result<fleet::Snapshot> read_unit(const fleet::GoalResult& result);
   [[nodiscard]] Result<void> name_unit(const fleet::Snapshot& unit);
@@ -130,6 +131,10 @@ Goals Replacement::find(const Whom& whom) {
                            : std::nullopt;
   if (waiting) {
     return {.notes = {*waiting}, .would_let_in = 1};
+  }
+  auto old = found ? std::nullopt : old_beside_successor(whom.roster);
+  if (old) {
+    return {.errors = {std::move(*old)}};
   }
   if (!found) {
     return {.errors = {found.error()}, .may_wait = found.error().code == Code::not_found};
@@ -184,6 +189,23 @@ bool Replacement::has_taken_place(const dronecan::UniqueId& unit) const {
   return last && *last && (*last)->command == fleet::replacing;
 }
 
+/// By the record of an earlier run: the unit that it put there last is the successor.
+std::optional<Error> Replacement::old_beside_successor(const fleet::Roster& roster) const {
+  const auto store = open_snapshots(context_.shared().interface, state::Access::read);
+  std::optional<state::SnapshotEntry> newest;
+  for (const dronecan::NodeId id : roster.doubled()) {
+    for (const dronecan::UniqueId& unit : roster.units(id)) {
+      const auto last = store ? store->last(unit) : Result<std::optional<state::SnapshotEntry>>();
+      if (last && *last && (*last)->command == fleet::replacing &&
+          (!newest || newest->number < (*last)->number)) {
+        newest = **last;
+      }
+    }
+  }
+  return newest ? fleet::back_on_its_id(entry_, newest->unique_id, newest->serial_number, roster)
+                : std::nullopt;
+}
+
 void Replacement::ended(std::span<const fleet::GoalResult> results) {
   if (options_.dry_run || results.size() != 1 || !results.front().is_done) {
     return;
@@ -192,8 +214,10 @@ void Replacement::ended(std::span<const fleet::GoalResult> results) {
   const auto unit = away ? read_unit(results.front()) : std::unexpected(away.error());
   const auto named = unit ? name_unit(*unit) : std::unexpected(unit.error());
   if (!named) {
+    const bool is_doubled = named.error().code == Code::duplicate_node_id;
     failure_ = {named.error().code, say<texts::replace_file_left>(named.error().message),
-                say<texts::replace_again_hint>(), named.error().node_id};
+                is_doubled ? named.error().hint : say<texts::replace_again_hint>(),
+                named.error().node_id};
   }
 }
 
@@ -203,8 +227,13 @@ Result<void> Replacement::look_for_broken(const fleet::GoalResult& result) {
   if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
     return found;
   }
-  auto back = fleet::come_back(file_.fleet, entry_, result.servo().unique_id.value(),
-                               context_.session().roster(), context_.known());
+  const fleet::Roster& roster = context_.session().roster();
+  const dronecan::UniqueId unit = result.servo().unique_id.value();
+  auto back =
+      fleet::back_on_its_id(entry_, unit, result.servo().identity.readings().serial_number, roster);
+  if (!back) {
+    back = fleet::come_back(file_.fleet, entry_, unit, roster, context_.known());
+  }
   return back ? std::unexpected(std::move(*back)) : Result<void>();
 }
 

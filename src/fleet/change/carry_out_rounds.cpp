@@ -329,12 +329,25 @@ std::vector<Error> Rounds::carry_out(const Round& round, const Hook& hook) {
   return carried_out.broken ? std::vector{*carried_out.broken} : std::vector<Error>();
 }
 
+/// Why the unit of a move is not where it should be; empty: it is. Another allocator may give a
+/// dynamic one any other ID.
+std::optional<Error> Rounds::misplaced(const IdMove& move, const ChangeResult& result) {
+  const bool is_there =
+      move.is_dynamic ? result.node_id_after != move.from : result.node_id_after == move.to;
+  if (is_there) {
+    return std::nullopt;
+  }
+  const std::uint8_t id = result.node_id_after.value_or(move.from).value();
+  return Error{Code::mismatch,
+               move.is_dynamic ? say<texts::asked_and_elsewhere>(id)
+                               : say<texts::saved_and_elsewhere>(id, move.to.value()),
+               say<texts::run_again_hint>(), id};
+}
+
 void Rounds::conclude(const Step& step, ChangeResult result, const Hook& hook) {
   UnitChange& unit = units_[step.unit];
-  if (step.move && result.is_done() && result.node_id_after != step.move->to) {
-    const std::uint8_t id = result.node_id_after.value_or(step.move->from).value();
-    result.error = Error{Code::mismatch, say<texts::saved_and_elsewhere>(id, step.move->to.value()),
-                         say<texts::run_again_hint>(), id};
+  if (step.move && result.is_done()) {
+    result.error = misplaced(*step.move, result);
   }
   unit.now = result.node_id_after.value_or(unit.now);
   const auto earlier = unit.last ? unit.last->warnings : std::vector<Warning>();
@@ -351,7 +364,7 @@ void Rounds::conclude(const Step& step, ChangeResult result, const Hook& hook) {
   unit.is_done = !unit.has_made_way;
   if (step.move) {
     // its start on the new ID: what is heard on the old one later is another's
-    const auto started = session_.roster().started(step.move->to);
+    const auto started = session_.roster().started(unit.now);
     left_[step.move->from] = std::min(session_.now(), started.value_or(session_.now()));
     if (hook) {
       hook(*step.move);

@@ -314,8 +314,12 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
   result_.error = restart_->error();
   if (restart_->is_unproven()) {
     const std::uint8_t id = servo_.id.value();
-    result_.error = Error{Code::state, say<texts::restarts_while_read>(id),
-                          say<texts::restarts_again_hint>(), id};
+    const auto writer = restart_->writer(); // as it was before, or it would be another value
+    result_.error =
+        Error{Code::state,
+              writer ? say<texts::written_while_read>(id, writer->value())
+                     : say<texts::restarts_while_read>(id),
+              writer ? say<texts::other_writer_hint>() : say<texts::restarts_again_hint>(), id};
   }
   result_.may_have_saved = *plan_.restart == RestartKind::save && restart_->may_have_happened();
   if (plan_.restart == RestartKind::restart && restart_->may_have_happened()) {

@@ -130,12 +130,25 @@ bla::Values replaced_by(const Plan& plan) {
   return can_go_back(identity, std::move(values));
 }
 
+/// What ROM may hold once it cannot be read: the IDs to be saved, else those of its proof.
+void History::keep_ids(const Plan& plan) {
+  state::Registers& ids = ids_in_rom_[*plan.before.servo.unique_id];
+  const bla::Values rom =
+      plan.restart == RestartKind::save ? plan.expected : last_proven_ids(plan.before.servo);
+  for (const auto& [address, raw] : rom) {
+    if (bla::is_id(address)) {
+      ids.insert_or_assign(address.value(), raw);
+    }
+  }
+}
+
 Result<void> History::drop_proofs(std::span<const Plan> plans) {
   std::vector<UniqueId> units;
   for (const Plan& plan : plans) {
     const auto& unique_id = plan.before.servo.unique_id;
     // unproven: whether ERASE changes ROM
     if ((plan.restart || plan.erase) && unique_id && !unproven_.contains(*unique_id)) {
+      keep_ids(plan);
       units.push_back(*unique_id);
     }
   }
@@ -333,6 +346,9 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
         result.rom && !result.is_read_again && (result.is_done() || result.rom->values.empty());
     if (tells && result.servo.unique_id) {
       proofs.push_back(proof_of(result.servo, *result.rom, session));
+      if (proofs.back().rom.empty()) {
+        proofs.back().rom = ids_in_rom_[*result.servo.unique_id];
+      }
     }
   }
   auto put = proofs.empty() ? Result<void>() : proofs_.put(proofs);

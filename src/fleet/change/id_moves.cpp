@@ -43,8 +43,8 @@ std::optional<Error> wished_twice(std::span<const Wish> earlier, const Wish& wis
 class WishCheck {
  public:
   WishCheck(std::span<const IdHolder> units, std::span<const Wish> wishes,
-            const state::NodeIds& taken)
-      : units_(units), wishes_(wishes), taken_(taken) {}
+            const state::NodeIds& taken, std::span<const dronecan::UniqueId> become_dynamic)
+      : units_(units), wishes_(wishes), taken_(taken), become_dynamic_(become_dynamic) {}
 
   [[nodiscard]] std::vector<Error> all() {
     for (std::size_t i = 0; i < wishes_.size(); ++i) {
@@ -82,7 +82,8 @@ class WishCheck {
     }
     for (const IdHolder& other : units_) {
       const bool stays =
-          std::ranges::find(wishes_, other.unique_id, &Wish::unique_id) == wishes_.end();
+          std::ranges::find(wishes_, other.unique_id, &Wish::unique_id) == wishes_.end() &&
+          std::ranges::find(become_dynamic_, other.unique_id) == become_dynamic_.end();
       if (stays && holds(other, wish)) {
         errors_.push_back({Code::duplicate_node_id,
                            say<texts::id_given_is_held>(unit.id.value(), wish.value(),
@@ -96,6 +97,7 @@ class WishCheck {
   std::span<const IdHolder> units_;
   std::span<const Wish> wishes_;
   const state::NodeIds& taken_;
+  std::span<const dronecan::UniqueId> become_dynamic_;
   std::vector<Error> errors_;
 };
 
@@ -103,11 +105,17 @@ class WishCheck {
 class IdSchedule {
  public:
   IdSchedule(std::span<const IdHolder> units, std::span<const Wish> wishes,
-             const state::NodeIds& taken, const state::NodeIds& promised)
+             const state::NodeIds& taken, const state::NodeIds& promised,
+             std::span<const dronecan::UniqueId> become_dynamic)
       : never_temporary_(taken), rather_not_(promised) {
     for (const IdHolder& unit : units) {
       const auto wish = std::ranges::find(wishes, unit.unique_id, &Wish::unique_id);
-      units_.push_back({unit, wish == wishes.end() ? std::nullopt : std::optional(wish->node_id)});
+      const bool leaves =
+          std::ranges::find(become_dynamic, unit.unique_id) != become_dynamic.end() &&
+          std::ranges::any_of(wishes,
+                              [&](const Wish& other) { return holds(unit, other.node_id); });
+      units_.push_back(
+          {unit, wish == wishes.end() ? std::nullopt : std::optional(wish->node_id), leaves});
     }
     for (const Wish& wish : wishes) {
       never_temporary_.set(wish.node_id.value());
@@ -134,9 +142,10 @@ class IdSchedule {
   struct Unit {
     IdHolder now;
     std::optional<NodeId> wish{};
+    bool leaves = false; ///< it becomes dynamic, and others want what it holds
 
     [[nodiscard]] bool is_done() const {
-      return !wish || (now.id == *wish && now.static_node_id == wish->value());
+      return !leaves && (!wish || (now.id == *wish && now.static_node_id == wish->value()));
     }
   };
 
@@ -144,12 +153,18 @@ class IdSchedule {
 
   [[nodiscard]] std::vector<IdMove> next_round() const {
     std::vector<IdMove> round;
+    state::NodeIds closed = never_temporary_;
     for (const Unit& unit : units_) {
-      if (!unit.is_done() && blocker(unit) == nullptr) {
+      if (unit.leaves) {
+        const NodeId to = highest_free(unit, closed);
+        if (to.is_unicast()) {
+          closed.set(to.value());
+          round.push_back({unit.now.unique_id, unit.now.id, to, false, true});
+        }
+      } else if (!unit.is_done() && blocker(unit) == nullptr) {
         round.push_back({unit.now.unique_id, unit.now.id, *unit.wish});
       }
     }
-    state::NodeIds closed = never_temporary_;
     for (const Cycle& cycle : cycles()) {
       if (const auto move = way_out(cycle, closed)) {
         closed.set(move->to.value());
@@ -162,7 +177,7 @@ class IdSchedule {
   /// Another unit that holds the ID wanted by this one; null: it may move, or need not.
   [[nodiscard]] const Unit* blocker(const Unit& unit) const {
     const auto found = std::ranges::find_if(units_, [&](const Unit& other) {
-      return &other != &unit && !unit.is_done() && holds(other.now, *unit.wish);
+      return &other != &unit && unit.wish && !unit.is_done() && holds(other.now, *unit.wish);
     });
     return found == units_.end() ? nullptr : &*found;
   }
@@ -220,7 +235,8 @@ class IdSchedule {
     const auto unit = std::ranges::find(units_, move.unique_id,
                                         [](const Unit& each) { return each.now.unique_id; });
     unit->now.id = move.to;
-    unit->now.static_node_id = move.to.value();
+    unit->now.static_node_id = move.is_dynamic ? 0 : move.to.value();
+    unit->leaves = false;
   }
 
   std::vector<Unit> units_;
@@ -230,14 +246,14 @@ class IdSchedule {
 
 } // namespace
 
-std::expected<IdRounds, std::vector<Error>> plan_id_moves(std::span<const IdHolder> units,
-                                                          std::span<const Wish> wishes,
-                                                          const state::NodeIds& taken,
-                                                          const state::NodeIds& promised) {
-  if (auto errors = WishCheck(units, wishes, taken).all(); !errors.empty()) {
+std::expected<IdRounds, std::vector<Error>>
+plan_id_moves(std::span<const IdHolder> units, std::span<const Wish> wishes,
+              const state::NodeIds& taken, const state::NodeIds& promised,
+              std::span<const dronecan::UniqueId> become_dynamic) {
+  if (auto errors = WishCheck(units, wishes, taken, become_dynamic).all(); !errors.empty()) {
     return std::unexpected(std::move(errors));
   }
-  auto rounds = IdSchedule(units, wishes, taken, promised).rounds();
+  auto rounds = IdSchedule(units, wishes, taken, promised, become_dynamic).rounds();
   if (!rounds) {
     return std::unexpected(std::vector{std::move(rounds.error())});
   }

@@ -37,6 +37,12 @@ inline constexpr Text wish_takes_over{
 inline constexpr Text will_make_way{
     "node {} makes way for others: it is saved twice, node ID {} comes in between",
     "ノード {} は ID 入替えのため一時的にノード ID {} を使用します (保存は 2 回)"};
+inline constexpr Text will_ask_for_another_id{
+    "node {} leaves its node ID to another servo, and asks for one after its restart",
+    "ノード {} はノード ID を他のサーボに譲り、再起動後に別の ID の割当てを要求します"};
+inline constexpr Text asked_and_elsewhere{
+    "node {} was to leave its node ID to another servo, and has got it again",
+    "ノード {} はノード ID を他のサーボに譲るはずでしたが、同じ ID で復帰しました"};
 inline constexpr Text id_is_not_left{
     "node {} was to get node ID {}, whose holder has failed and may still have it: nothing was "
     "changed",

@@ -112,6 +112,12 @@ bla::Values replaced_by(const std::vector<state::SnapshotEntry>& changes) {
   return values;
 }
 
+/// Of a ROM that could not be read: it tells no more than the IDs that it may hold.
+bool is_unread(const state::RomProof& proof) {
+  return std::ranges::all_of(proof.rom,
+                             [](const auto& held) { return bla::is_id(bla::Address(held.first)); });
+}
+
 } // namespace
 
 std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram) {
@@ -176,7 +182,7 @@ std::optional<state::RomProof> History::proof(const Servo& servo, const Session&
 
 std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session& session) {
   const auto proof = this->proof(servo, session);
-  if (!proof || proof->rom.empty()) {
+  if (!proof || is_unread(*proof)) {
     return std::nullopt;
   }
   bla::Values values;
@@ -322,9 +328,23 @@ std::vector<Waiting> History::waiting(const Roster& roster) const {
   return units;
 }
 
+bla::Values History::last_proven_ids(const Servo& servo) const {
+  bla::Values held;
+  const auto proof =
+      servo.unique_id ? proofs_.find(*servo.unique_id) : Result<std::optional<state::RomProof>>();
+  if (proof && *proof && !has_other_serial(servo, (*proof)->serial_number)) {
+    for (const auto& [number, raw] : (*proof)->rom) {
+      if (const bla::Address address(number); bla::is_id(address)) {
+        held.emplace(address, raw);
+      }
+    }
+  }
+  return held;
+}
+
 bool History::is_rom_unread(const Servo& servo, const Session& session) {
   const auto proof = this->proof(servo, session);
-  return proof && proof->rom.empty();
+  return proof && is_unread(*proof);
 }
 
 } // namespace blactl::fleet

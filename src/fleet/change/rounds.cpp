@@ -14,6 +14,7 @@
 #include <iterator>
 #include <map>
 #include <ranges>
+#include <set>
 
 namespace blactl::fleet {
 
@@ -31,6 +32,32 @@ std::vector<Wish> wishes_of(std::span<const UnitChange> units) {
     }
   }
   return wishes;
+}
+
+/// The units that give up their static node ID for good.
+std::vector<dronecan::UniqueId> becoming_dynamic(std::span<const UnitChange> units) {
+  std::vector<dronecan::UniqueId> dynamic;
+  for (const UnitChange& unit : units) {
+    const RegisterChange* change = unit.plan.change_of(bla::address::static_node_id);
+    if (unit.plan.restart == RestartKind::save && change != nullptr && change->is_planned() &&
+        change->requested == 0) {
+      dynamic.push_back(unit.unique_id);
+    }
+  }
+  return dynamic;
+}
+
+/// As RAM will hold them: one that another unit is to get is not in its way if this change takes it
+/// from RAM, as ROM does not hold it. (See rom_node_id_conflict() where it does.)
+void take_from_ram(std::span<const UnitChange> units, std::vector<IdHolder>& holders) {
+  for (const UnitChange& unit : units) {
+    const RegisterChange* change = unit.plan.change_of(bla::address::static_node_id);
+    const auto holder = std::ranges::find(holders, unit.unique_id, &IdHolder::unique_id);
+    if (unit.plan.restart != RestartKind::save && change != nullptr && change->is_planned() &&
+        holder != holders.end()) {
+      holder->static_node_id = change->requested;
+    }
+  }
 }
 
 } // namespace
@@ -122,8 +149,10 @@ std::vector<Error> Rounds::make_rounds() {
     if (!ids) {
       return {ids.error()};
     }
+    auto units = holders(session_.roster(), wishes);
+    take_from_ram(units_, units);
     auto planned =
-        plan_id_moves(holders(session_.roster(), wishes), wishes, ids->taken, ids->promised);
+        plan_id_moves(units, wishes, ids->taken, ids->promised, becoming_dynamic(units_));
     if (!planned) {
       return planned.error();
     }
@@ -131,22 +160,33 @@ std::vector<Error> Rounds::make_rounds() {
     absent_ = ids->absent;
     note_takeovers();
   }
+  add_rounds(moves);
+  return {};
+}
+
+/// Those that move, each in its round; all others in the first one.
+void Rounds::add_rounds(const IdRounds& moves) {
   rounds_.assign(std::max<std::size_t>(moves.size(), 1), {});
-  for (std::size_t i = 0; i < units_.size(); ++i) {
-    if (!units_[i].static_node_id()) {
-      rounds_.front().push_back({i, std::nullopt});
-    }
-  }
+  std::set<std::size_t> moving;
   for (std::size_t r = 0; r < moves.size(); ++r) {
     for (const IdMove& move : moves[r]) {
-      const auto unit = std::ranges::find(units_, move.unique_id, &UnitChange::unique_id);
-      rounds_[r].push_back({static_cast<std::size_t>(unit - units_.begin()), move});
+      const auto found = std::ranges::find(units_, move.unique_id, &UnitChange::unique_id);
+      const auto unit = static_cast<std::size_t>(found - units_.begin());
+      rounds_[r].push_back({unit, move});
+      moving.insert(unit);
       if (move.is_temporary) {
         notes_.push_back(say<texts::will_make_way>(move.from.value(), move.to.value()));
       }
+      if (move.is_dynamic) {
+        notes_.push_back(say<texts::will_ask_for_another_id>(move.from.value()));
+      }
     }
   }
-  return {};
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    if (!moving.contains(i) && !units_[i].static_node_id()) {
+      rounds_.front().push_back({i, std::nullopt});
+    }
+  }
 }
 
 /// A user's wish takes the ID of a unit that is away.

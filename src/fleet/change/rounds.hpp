@@ -94,6 +94,7 @@ class Rounds {
   // Planning (rounds.cpp).
   [[nodiscard]] std::vector<Error> make_plans(std::vector<UnitTask> tasks);
   [[nodiscard]] std::vector<Error> make_rounds();
+  void add_rounds(const IdRounds& moves);
   [[nodiscard]] Result<void> learn_ids();
   [[nodiscard]] Result<state::AllocationStore*> table();
   void note_takeovers();
@@ -117,6 +118,8 @@ class Rounds {
   [[nodiscard]] std::vector<Error> carry_out_rounds(const Hook& hook);
   [[nodiscard]] std::vector<Error> carry_out_each(const Hook& hook);
   [[nodiscard]] std::vector<Error> carry_out(const Round& round, const Hook& hook);
+  [[nodiscard]] static std::optional<Error> misplaced(const IdMove& move,
+                                                      const ChangeResult& result);
   void conclude(const Step& step, ChangeResult result, const Hook& hook);
   void fail(const Step& step, Error error);
 

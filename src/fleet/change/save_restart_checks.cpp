@@ -71,7 +71,8 @@ Step SaveRestartJob::check_unit(const Outcome& outcome) {
     return give_up(std::move(*taken));
   }
   // SAVE keeps the present RAM: it must be unchanged since it was read, whatever was proven since
-  if (options_.kind == RestartKind::save && roster_.writer_to(id_, servo_.since)) {
+  writer_ = roster_.writer_to(id_, servo_.since);
+  if (options_.kind == RestartKind::save && writer_) {
     is_unproven_ = true;
     return std::nullopt;
   }

@@ -6,6 +6,7 @@
 #include "blactl/fleet/change/history.hpp"
 
 #include "fleet/change/id_texts.hpp"
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -174,6 +175,8 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
       rom.merge(record->saved_since_start(snapshot.servo, session));
       servo->rom_servo_id = bla::find(rom, at::servo_id);
       servo->rom_static_node_id = bla::find(rom, at::static_node_id);
+    } else if (record != nullptr) { // no node ID at all is given beside it
+      servo->rom_servo_id = bla::find(record->last_proven_ids(snapshot.servo), at::servo_id);
     }
     found.servos.push_back(*servo);
   }
@@ -220,9 +223,14 @@ std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Pla
     }
     if ((gives_new_servo_id(plan) || is_new_in_rom) && stays(plans, other) &&
         other.rom_servo_id == servo_id) {
-      return Error{Code::duplicate_servo_id,
-                   say<texts::servo_id_given_is_in_rom>(id, *servo_id, other.id.value()),
-                   say<texts::servo_id_given_is_in_rom_hint>(other.id.value()), id};
+      const std::uint8_t its_id = other.id.value();
+      return other.is_rom_unread
+                 ? Error{Code::duplicate_servo_id,
+                         say<texts::servo_id_given_is_unread>(id, *servo_id, its_id),
+                         say<texts::id_in_unread_rom_hint>(its_id), id}
+                 : Error{Code::duplicate_servo_id,
+                         say<texts::servo_id_given_is_in_rom>(id, *servo_id, its_id),
+                         say<texts::servo_id_given_is_in_rom_hint>(its_id), id};
     }
   }
   return std::nullopt;

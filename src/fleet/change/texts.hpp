@@ -26,6 +26,11 @@ inline constexpr Text id_in_unread_rom{"node {} would get node ID {}, which node
                                        "ノード {} に設定されるノード ID {} は、起動時に ROM "
                                        "を読み出せなかったノード {} の ROM 内の ID "
                                        "と重複する可能性があります"};
+inline constexpr Text servo_id_given_is_unread{
+    "node {} would have servo ID {}, which node {} may have in its ROM: it could not read that at "
+    "its start",
+    "ノード {} のサーボ ID {} は、起動時に ROM を読み出せなかったノード {} の ROM 内の ID "
+    "と重複する可能性があります"};
 inline constexpr Text id_in_unread_rom_hint{
     "the next start may read it: blactl restart -n {0}; or take it off, or clear it: blactl erase "
     "--save -n {0}",

@@ -1,5 +1,6 @@
 #include "blactl/fleet/files/successor.hpp"
 
+#include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/files/fleet_match.hpp"
 
@@ -115,6 +116,27 @@ Error still_there(const FleetFile& file, const FleetEntry& entry, NodeId id) {
                  : say<texts::successor_old_waits>(entry.name),
           say<texts::successor_old_there_hint>(shell_word(file.file)),
           has_id ? std::optional(id.value()) : std::nullopt};
+}
+
+std::optional<Error> back_on_its_id(const FleetEntry& entry, const dronecan::UniqueId& successor,
+                                    std::optional<std::int64_t> serial, const Roster& roster) {
+  const auto& named = entry.match.serial_number; // of the successor, once the file names it
+  for (const NodeId id : roster.doubled()) {
+    auto units = roster.units(id);
+    if (units.erase(successor) == 0 || units.empty()) {
+      continue;
+    }
+    const auto old = entry.match.unique_id && units.contains(*entry.match.unique_id)
+                         ? *entry.match.unique_id
+                         : *units.begin();
+    return Error{Code::duplicate_node_id,
+                 say<texts::successor_old_on_its_id>(
+                     id.value(), hex(successor), entry.name, hex(old),
+                     named && serial && named != serial ? say<texts::successor_old_serial>(*named)
+                                                        : std::string()),
+                 say<texts::successor_old_on_its_id_hint>(), id.value()};
+  }
+  return std::nullopt;
 }
 
 std::optional<Error> come_back(const FleetFile& file, const FleetEntry& entry,

@@ -92,6 +92,16 @@ inline constexpr Text successor_old_waits{"the servo of '{}' still asks for a no
 inline constexpr Text successor_old_there_hint{
     "take it off the bus and run the command again; if it stays: blactl apply {}",
     "取り外してからもう一度実行して下さい。交換しない場合: blactl apply {}"};
+inline constexpr Text successor_old_on_its_id{
+    "node ID {} is used by uid:{}, which took the place of '{}', and by uid:{}, as its node ID "
+    "tells "
+    "the old servo{}",
+    "ノード ID {} は、uid:{} ('{}' の新しいサーボ) と uid:{} (ノード ID から元のサーボと判断{}) "
+    "の両方が使用しています"};
+inline constexpr Text successor_old_serial{" (serial number {})", "、製造番号 {}"};
+inline constexpr Text successor_old_on_its_id_hint{
+    "take the old one off the bus, then run the same command again",
+    "元のサーボを取り外してから、同じコマンドをもう一度実行して下さい"};
 inline constexpr Text successor_has_entry{"node {} has an entry of its own: '{}'",
                                           "ノード {} には別のエントリがあります: '{}'"};
 inline constexpr Text successor_has_entry_hint{"name the new servo with -n",

@@ -1022,6 +1022,8 @@ TEST_CASE("a servo to which another node writes whenever it has been looked at i
     bench.answer();
   }
   CHECK(failure(bench.job->result()) == Code::state);
+  CHECK(says(bench.job->result(), "writes to node"));
+  CHECK_FALSE(says(bench.job->result(), "restarts"));
   CHECK(bench.count("SAVE") == 0);
   CHECK(bench.count("read 0x38") == 3);
 }

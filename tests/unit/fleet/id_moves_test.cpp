@@ -104,6 +104,22 @@ TEST_CASE("two that exchange their IDs need a third for a moment: the highest th
         "a:10>123*, b:11>10, a:123>11");
 }
 
+TEST_CASE("a unit that becomes dynamic leaves an ID that another one wishes, and that alone") {
+  const std::vector units{unit('a', 10), unit('b', 11), unit('c', 12)};
+  const std::vector dynamic{uid('c')};
+  const auto planned = [&](const std::vector<IdHolder>& on_bus, const std::vector<Wish>& wishes) {
+    const auto rounds = plan_id_moves(on_bus, wishes, {}, {}, dynamic);
+    REQUIRE(rounds);
+    return text(*rounds);
+  };
+  const std::vector cycle{wish('a', 11), wish('b', 12)};
+  CHECK(planned(units, cycle) == "c:12>125, b:11>12, a:10>11");
+  CHECK(plan_id_moves(units, cycle, {}, {}, dynamic)->front().front().is_dynamic);
+  CHECK(planned(units, {wish('a', 20)}) == "a:10>20");
+  CHECK(planned({unit('a', 10), unit('c', 30, 12)}, {wish('a', 12)}) == "c:30>125, a:10>12");
+  CHECK(codes(errors(units, cycle)) == std::vector{Code::duplicate_node_id});
+}
+
 TEST_CASE("a temporary ID is none that somebody wishes") {
   CHECK(moves({unit('a', 10), unit('b', 11), unit('c', 12), unit('d', 13)},
               {wish('a', 11), wish('b', 10), wish('c', 125), wish('d', 12)}) ==

@@ -126,6 +126,10 @@ class History {
   /// none changes it without SAVE. Empty also if the record cannot be read.
   [[nodiscard]] std::vector<Waiting> waiting(const Roster& roster) const;
 
+  /// The IDs that the ROM of this servo held when it was last proven, however long ago: where it
+  /// could not be read since, it may hold them. Empty also if the record cannot be read.
+  [[nodiscard]] bla::Values last_proven_ids(const Servo& servo) const;
+
   /// Empty: none, or they were changed on purpose since.
   [[nodiscard]] LostIds lost_ids(const Snapshot& ram, const Session& session) const;
 
@@ -137,6 +141,7 @@ class History {
   [[nodiscard]] std::optional<state::RomProof> proof(const Servo& servo, const Session& session);
   using Roms = std::map<dronecan::UniqueId, state::Registers>;
 
+  void keep_ids(const Plan& plan);
   void keep_rom(const Plan& plan, const state::Registers& held, const Session& session);
   [[nodiscard]] Roms roms_before(std::span<const Plan> plans, const Session& session);
   [[nodiscard]] Result<void> keep_lasting(std::span<const Plan> plans, const Roms& roms,
@@ -185,6 +190,8 @@ class History {
   std::int64_t run_ = 0;                    ///< of all entries of this command; 0: no record
   std::int64_t joined_ = 0;                 ///< of an earlier try that is continued; 0: none
   std::set<dronecan::UniqueId> unproven_{}; ///< their proofs were removed
+  Roms ids_in_rom_{}; ///< of these units, as proven or to be saved: ROM that is not read may hold
+                      ///< them
 
   /// Where an entry holds what ROM held before a save: what RAM did; else the other way about.
   Roms in_ram_{}, in_rom_{};

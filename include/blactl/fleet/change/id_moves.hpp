@@ -24,13 +24,14 @@ struct IdHolder {
   std::optional<std::int64_t> static_node_id{};
 };
 
-/// A move of one unit to a static node ID: 0x46 is written, saved, the unit restarted, and seen on
-/// `to`.
+/// A move of one unit to a node ID, mostly a static one: 0x46 is written, saved, the unit
+/// restarted, and seen on `to`.
 struct IdMove {
   dronecan::UniqueId unique_id{};
   dronecan::NodeId from; ///< its present ID; `to` itself, if only its ROM must follow
   dronecan::NodeId to;
   bool is_temporary = false; ///< it makes way for others, and moves again later
+  bool is_dynamic = false;   ///< 0 is saved: the unit asks for an ID, and is to get `to`
 
   friend bool operator==(const IdMove&, const IdMove&) = default;
 };
@@ -45,13 +46,15 @@ using IdRounds = std::vector<std::vector<IdMove>>;
 /// leads to the highest free ID that is not wanted, and if possible not in `promised`.
 ///
 /// `units`: all units on the bus that reported their IDs, each once; those without a wish stay.
-/// `wishes`: 1 to 125; 0, dynamic, is not allowed, as the allocator's choice cannot be planned.
+/// `wishes`: 1 to 125.
 /// `taken`: IDs of further nodes and our own. `promised`: IDs in the allocation table of units that
-/// are not on this bus; a wish overrides them. Errors, all of them: not_found (no such unit),
-/// out_of_range, usage (two wishes for one ID or one unit), duplicate_node_id (its present holder
-/// stays); else table_full (a cycle, and no free ID).
+/// are not on this bus; a wish overrides them. `become_dynamic`: units without a wish whose static
+/// ID is given up; they move only where others want it or the present one. Errors, all of them:
+/// not_found (no such unit), out_of_range, usage (two wishes for one ID or one unit),
+/// duplicate_node_id (its present holder stays); else table_full (a cycle, and no free ID).
 [[nodiscard]] std::expected<IdRounds, std::vector<Error>>
 plan_id_moves(std::span<const IdHolder> units, std::span<const state::AllocationStore::Wish> wishes,
-              const state::NodeIds& taken, const state::NodeIds& promised = {});
+              const state::NodeIds& taken, const state::NodeIds& promised = {},
+              std::span<const dronecan::UniqueId> become_dynamic = {});
 
 } // namespace blactl::fleet

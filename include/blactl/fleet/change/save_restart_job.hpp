@@ -66,6 +66,9 @@ class SaveRestartJob final : public dronecan::Job {
   /// differ from those read.
   [[nodiscard]] bool is_unproven() const { return is_unproven_; }
 
+  /// The node whose write is the reason of is_unproven(); empty: a restart is.
+  [[nodiscard]] std::optional<dronecan::NodeId> writer() const { return writer_; }
+
   /// The reason why it is not back, or what is uncertain: timeout, not_back, refused, state,
   /// duplicate_node_id, no_acknowledge, interrupted; as Guard::forbids().
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
@@ -158,6 +161,7 @@ class SaveRestartJob final : public dronecan::Job {
   bool may_repeat_ = true;
   bool is_over_ = false;
   bool is_unproven_ = false;
+  std::optional<dronecan::NodeId> writer_{};
   bool is_refused_ = false;
   bool has_run_on_ = false;
   bool has_restarted_ = false;  ///< shown by its uptime, the roster may have missed it

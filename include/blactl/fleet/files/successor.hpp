@@ -43,6 +43,14 @@ struct Successor {
                                              const dronecan::UniqueId& unit, const Roster& roster,
                                              const bla::Profiles& profiles);
 
+/// The old servo of this entry responds on the node ID of its `successor`, whose serial number is
+/// `serial`: as far as a unique ID in the entry, or else that node ID, tells. The session has
+/// searched the bus. Empty: nobody does. Errors: duplicate_node_id.
+[[nodiscard]] std::optional<Error> back_on_its_id(const FleetEntry& entry,
+                                                  const dronecan::UniqueId& successor,
+                                                  std::optional<std::int64_t> serial,
+                                                  const Roster& roster);
+
 /// Whether the entry tells that it is of this unit, and not of any that has its other keys.
 [[nodiscard]] bool names_unit(const FleetEntry& entry, const Servo& unit);
 
