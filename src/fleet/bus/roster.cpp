@@ -238,7 +238,7 @@ void Roster::hear_status(Member& sender, const can::Frame& frame, Time at) {
     const dronecan::TransferId id = frame.data[size] % dronecan::transfer_id_modulus;
     UnitWatch& watch = watches_[sender.id.value()];
     watch.count_node_status(frame, status->uptime_s, at);
-    take(watch.hear_repetition(id, status->uptime_s, at), sender);
+    take(watch.hear_repetition(id, status->uptime_s, at), sender, sender.status_at);
   }
 }
 
@@ -289,6 +289,7 @@ void Roster::forget_doubled(Time since) {
   }
 }
 
+/// Another unit has come in a silence: what is known of this ID was told by the one before.
 void Roster::begin_anew(NodeId id) {
   doubled_.erase(id);
   units_.erase(id);
@@ -308,9 +309,14 @@ void Roster::receive(const Transfer& transfer) {
         info && header.source.is_unicast()) {
       Member& sender = known(header.source);
       greet(sender, transfer.at);
+      if (accepts_exchanges_ && sender.may_be_another() &&
+          sender.is_another_unit(info->unique_id)) {
+        begin_anew(header.source);
+      }
+      const Time heard_before = std::exchange(sender.status_at, transfer.at);
       sender.status = info->status;
-      sender.status_at = transfer.at;
-      take(watches_[header.source.value()].hear_answer(info->status.uptime_s, transfer), sender);
+      take(watches_[header.source.value()].hear_answer(info->status.uptime_s, transfer), sender,
+           heard_before);
       learn(header.source, *info, transfer.at);
     }
   }
@@ -340,8 +346,9 @@ void Roster::on_status(const Transfer& transfer) {
   Member& sender = known(transfer.header.source);
   greet(sender, transfer.at);
   sender.status = *status;
-  sender.status_at = transfer.at;
-  take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender);
+  const Time heard_before = std::exchange(sender.status_at, transfer.at);
+  take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender,
+       heard_before);
 }
 
 /// What was written to this node ID before concerned somebody else, or nobody.
@@ -351,9 +358,12 @@ void Roster::greet(const Member& sender, Time at) {
   }
 }
 
-/// Takes the result of an uptime for a node.
-void Roster::take(UnitWatch::Start start, Member& sender) {
-  if (start == UnitWatch::Start::twin) {
+/// Takes the result of an uptime for a node; `heard_before`: the uptime before it.
+void Roster::take(UnitWatch::Start start, Member& sender, Time heard_before) {
+  const bool may_be_exchanged = accepts_exchanges_ && sender.back_at > heard_before;
+  if (start == UnitWatch::Start::twin && may_be_exchanged) {
+    begin_anew(sender.id);
+  } else if (start == UnitWatch::Start::twin) {
     doubled_[sender.id] = sender.last_heard;
   } else if (start == UnitWatch::Start::anew) {
     begin_unit(sender);
