@@ -255,6 +255,21 @@ TEST_CASE("a file that is no log of ours, or another station's, is not replaced 
   }
 }
 
+TEST_CASE("a node ID that the recipe gives is not that of the station itself") {
+  const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});
+  for (const char* own : {"11", "18"}) {
+    const Provisioned run = provision(scene, {"--local-node-id", own, "--count", "1"});
+    INFO(run.result.out << run.result.err);
+    CHECK(run.result.status == 2);
+    CHECK(run.records.empty());
+    CHECK(contains(run.result.err, "11-18"));
+    CHECK(contains(run.result.err, "leave out --local-node-id"));
+  }
+  for (const char* own : {"10", "19", "127"}) {
+    CHECK(provision(scene, {"--local-node-id", own, "--count", "1"}).told() == "pass 1 11");
+  }
+}
+
 TEST_CASE("provision refuses what it could not do, before anything is opened") {
   const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});
   CHECK(provision(scene, {"--redo"}).result.status == 2);
