@@ -195,7 +195,8 @@ void Roster::hear(const can::Frame& frame, Time at) {
   heard.last_heard = at;
   answers_.receive(*header, frame, at);
   const std::uint8_t tail = frame.data[frame.size - 1U];
-  if (header->kind == Kind::message && header->data_type_id == dronecan::ActuatorStatus::type.id &&
+  if (!is_late_ && header->kind == Kind::message &&
+      header->data_type_id == dronecan::ActuatorStatus::type.id &&
       (tail & tail_start_of_transfer) != 0) {
     watches_[header->source.value()].count_actuator_status(frame, at);
   }
@@ -203,9 +204,18 @@ void Roster::hear(const can::Frame& frame, Time at) {
     heard.first_heard = at;
     announce(heard);
   }
-  if (header->kind == Kind::message && header->data_type_id == dronecan::NodeStatus::type.id) {
+  if (!is_late_ && header->kind == Kind::message &&
+      header->data_type_id == dronecan::NodeStatus::type.id) {
     hear_status(heard, frame, at);
   }
+}
+
+/// The present uptimes tell of restarts in the meantime.
+void Roster::be_late(bool is_late) {
+  if (is_late && !is_late_) {
+    std::ranges::for_each(watches_, &UnitWatch::begin_rates_anew);
+  }
+  is_late_ = is_late;
 }
 
 Time Roster::last_heard() const {
@@ -347,8 +357,10 @@ void Roster::on_status(const Transfer& transfer) {
   greet(sender, transfer.at);
   sender.status = *status;
   const Time heard_before = std::exchange(sender.status_at, transfer.at);
-  take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender,
-       heard_before);
+  if (!is_late_) {
+    take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender,
+         heard_before);
+  }
 }
 
 /// What was written to this node ID before concerned somebody else, or nobody.

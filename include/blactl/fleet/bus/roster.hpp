@@ -163,6 +163,10 @@ class Roster {
   /// As UnitWatch::lose_time().
   void lose_time() { std::ranges::for_each(watches_, &UnitWatch::lose_time); }
 
+  /// Whether what comes now has waited, nobody knows how long: its times tell nothing of uptimes
+  /// and rates.
+  void be_late(bool is_late);
+
   void receive(const dronecan::Transfer& transfer);
 
   /// As AllocationWatch::give().
@@ -367,6 +371,7 @@ class Roster {
   dronecan::AnswerWatch answers_;
   std::map<dronecan::NodeId, Time> doubled_; ///< when that last showed
   bool accepts_exchanges_ = false;
+  bool is_late_ = false;                                           ///< what is heard has waited
   std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
   AllocationWatch allocations_;
 };
