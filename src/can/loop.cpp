@@ -17,6 +17,12 @@ namespace {
 constexpr std::size_t probe_window = 1;
 constexpr std::size_t window = 3;
 
+/// A process that is so late has stood still.
+constexpr Duration longest_delay = std::chrono::milliseconds(300);
+
+/// After that, an adapter and the kernel have handed over what has waited.
+constexpr Duration catch_up_time = std::chrono::milliseconds(500);
+
 /// Whether the signal is ignored, as nohup arranges.
 bool is_ignored(int number) {
   struct sigaction action{};
@@ -157,7 +163,8 @@ std::optional<Event> Loop::from_bus() {
   if (!happened) {
     return std::nullopt;
   }
-  if (const auto* received = std::get_if<Received>(&*happened)) {
+  if (auto* received = std::get_if<Received>(&*happened)) {
+    received->is_timed = received->is_timed && (bus_->stamps() || received->at >= late_until_);
     heard(received->at);
   } else if (const auto* sent = std::get_if<Sent>(&*happened)) {
     const auto same = [&](const Pending& pending) { return pending.frame == sent->frame; };
@@ -182,10 +189,25 @@ void Loop::heard(Time at) {
   pump();
 }
 
+/// This process should have run when it was `due`.
+void Loop::note_run(Time due) {
+  const Time now = this->now();
+  if (due != never && now - due > longest_delay) {
+    late_until_ = now + catch_up_time;
+  }
+}
+
 /// Waits for the bus, a signal, a watched descriptor or the deadline, whichever is first.
-std::optional<Event> Loop::poll_once(Time deadline) {
+std::optional<Event> Loop::wait(Time deadline) {
+  const Time begin = now();
   const Time wake =
       bus_ && !gone_ ? bus_->idle_until(std::min(deadline, pump_again_at())) : deadline;
+  auto event = poll_once(wake);
+  note_run(std::max(wake, begin));
+  return event;
+}
+
+std::optional<Event> Loop::poll_once(Time wake) {
   std::array<pollfd, 32> fds{};
   std::size_t count = 0;
   fds[count++] = {signals_, POLLIN, 0};
@@ -219,6 +241,13 @@ std::optional<Event> Loop::poll_once(Time deadline) {
 }
 
 Event Loop::next(Time deadline) {
+  note_run(left_at_.value_or(never));
+  Event event = happening(deadline);
+  left_at_ = now();
+  return event;
+}
+
+Event Loop::happening(Time deadline) {
   if (auto event = from_signals()) { // on a busy bus nothing is waited for
     return *event;
   }
@@ -232,7 +261,7 @@ Event Loop::next(Time deadline) {
     if (deadline <= now()) {
       return DeadlineReached{};
     }
-    if (auto event = poll_once(deadline)) {
+    if (auto event = wait(deadline)) {
       return std::move(*event);
     }
   }

@@ -4,6 +4,8 @@
 #include "scene.hpp"
 
 #include <csignal>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -294,6 +296,33 @@ TEST_CASE("faults are read from a recording") {
   const Result watched = bench.run({"-i", "replay:" + log, "faults", "-j", "--watch", "-n", "12"});
   CHECK(json_lines(watched.out).front()["event"] == "present");
   CHECK(watched.status == 8);
+}
+
+TEST_CASE(
+    "a health that was told long before the last frame of a recording is not the present one") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "log").string();
+  const Scene scene = hot_servo();
+  REQUIRE(scene.run(bench, {"faults", "--record", log}).status == 8);
+  const auto health = [&] {
+    const Result replayed = bench.run({"-i", "replay:" + log, "faults", "-j", "-n", "12"});
+    CHECK(replayed.status == 8);
+    const auto node = json(replayed.out)["nodes"][0];
+    CHECK(node["active"][0]["code"] == "temperature_high");
+    return node["health"];
+  };
+  CHECK(health() == "warning");
+  std::istringstream lines(content(log));
+  std::vector<std::string> statuses; // frames of actuator.Status, without their times
+  for (std::string line; std::getline(lines, line);) {
+    if (contains(line, "03F30C#")) {
+      statuses.push_back(line.substr(line.find(')')));
+    }
+  }
+  REQUIRE(statuses.size() > 2);
+  std::ofstream(log, std::ios::app) << "(1735689700.000000" << *(statuses.end() - 2) << '\n'
+                                    << "(1735689700.000100" << statuses.back() << '\n';
+  CHECK(health().is_null());
 }
 
 TEST_CASE("every fault fits on 80 columns, in both languages") {

@@ -289,3 +289,38 @@ TEST_CASE("a unit whose answers do not come is told in the place of one that has
   INFO(run.result.out << run.result.err);
   CHECK(run.told() == "pass 1 11; fail timeout");
 }
+
+TEST_CASE("a second unit under the same node ID ends the display of a pass at once") {
+  const Bench bench;
+  const Scene scene = line({{.serial = 101, .from = 1, .to = 30, .node_id = 11},
+                            {.serial = 102, .from = 15, .to = 30, .node_id = 11}});
+  const Result shown = scene.run(
+      bench, {"provision", bench.file("recipe.json", line_recipe), "-y", "--idle-timeout", "20"},
+      {.terminal = true, .terminal_stdout = true, .columns = 80});
+  INFO(shown.out << shown.err);
+  const std::size_t told = shown.out.find("TAKE ALL OFF");
+  REQUIRE(told != std::string::npos);
+  const std::size_t bell = shown.out.find('\a', told); // it follows what was drawn
+  REQUIRE(bell != std::string::npos);
+  CHECK(contains(shown.out.substr(told, bell - told), "several_servos"));
+}
+
+TEST_CASE(
+    "a unit that was told as gone by its number, and stands in no record, is told to have none") {
+  const double to = GENERATE(2.4, 2.6, 2.8);
+  INFO(to);
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = to, .node_id = 7},
+                                          {.serial = 102, .from = 20, .to = 60, .node_id = 8}}),
+                                    {"--count", "1", "--idle-timeout", "90", "--events", events});
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.told() == "pass 1 11");
+  bool was_told = false;
+  for (const auto& event : json_lines(content(events))) {
+    was_told = was_told || (event["event"] == "gone" && event["serial_number"] == 101);
+  }
+  REQUIRE(was_told);
+  CHECK(contains(run.result.err, "serial number 101 was taken off before"));
+  CHECK_FALSE(contains(run.result.err, "must come back")); // nothing was written to it
+}

@@ -7,8 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -215,6 +220,54 @@ TEST_CASE("the frames of a servo that did not pass are kept, named by its record
             .run(bench, {"provision", bench.file("recipe.json", line_recipe), "-y", "--logs",
                          "/dev/null/x"})
             .status == 1);
+}
+
+TEST_CASE("a file that is no log of ours, or another station's, is not replaced by present.log") {
+  const Bench bench;
+  const std::filesystem::path folder = bench.folder() / "logs";
+  std::filesystem::create_directories(folder);
+  const std::string present = (folder / "present.log").string();
+  const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});
+  const Arguments command{
+      "provision",    bench.file("recipe.json", line_recipe), "-y", "--count", "1", "--logs",
+      folder.string()};
+  SECTION("it is something else") {
+    std::ofstream(present) << "the notes of a person\n";
+    const Result refused = scene.run(bench, command);
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.err, "present.log"));
+    CHECK(content(present) == "the notes of a person\n");
+  }
+  SECTION("another station writes it") {
+    std::ofstream(present) << "(1700000000.000000) can0 1001557F#00\n";
+    const int other = open(present.c_str(), O_RDONLY | O_CLOEXEC);
+    REQUIRE(flock(other, LOCK_EX | LOCK_NB) == 0);
+    const Result refused = scene.run(bench, command);
+    close(other);
+    CHECK(refused.status == 9);
+    CHECK(codes(refused) == std::vector<std::string>{"busy"});
+    CHECK(contains(content(present), "1001557F#00"));
+  }
+  SECTION("it is that of a run that has ended") {
+    std::ofstream(present) << "(1700000000.000000) can0 1001557F#00\n";
+    CHECK(scene.run(bench, command).status == 0);
+    CHECK_FALSE(contains(content(present), "1001557F#00"));
+  }
+}
+
+TEST_CASE("a node ID that the recipe gives is not that of the station itself") {
+  const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});
+  for (const char* own : {"11", "18"}) {
+    const Provisioned run = provision(scene, {"--local-node-id", own, "--count", "1"});
+    INFO(run.result.out << run.result.err);
+    CHECK(run.result.status == 2);
+    CHECK(run.records.empty());
+    CHECK(contains(run.result.err, "11-18"));
+    CHECK(contains(run.result.err, "leave out --local-node-id"));
+  }
+  for (const char* own : {"10", "19", "127"}) {
+    CHECK(provision(scene, {"--local-node-id", own, "--count", "1"}).told() == "pass 1 11");
+  }
 }
 
 TEST_CASE("provision refuses what it could not do, before anything is opened") {

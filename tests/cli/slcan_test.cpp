@@ -9,15 +9,18 @@
 #include "scene.hpp"
 #include "unit/can/slcan_adapter.hpp"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -361,4 +364,27 @@ TEST_CASE("slcan: simulated servos join a bus behind an adapter") {
   // actuator.Status comes ten times a second.
   adapter.wait_for([](const auto& lines) { return std::ranges::count_if(lines, is_frame) > 20; });
   CHECK(adapter.lines()[3] == "O");
+}
+
+TEST_CASE("slcan: frames that waited while the command was stopped make no second unit of one") {
+  const Bench bench;
+  std::string servos;
+  for (int id = 11; id < 27; ++id) { // more than the port keeps
+    servos += std::string(servos.empty() ? "" : ",") + R"({"model": "BLA21-12U-AB", "node_id": )" +
+              std::to_string(id) + "}";
+  }
+  SlcanAdapter adapter(
+      can::test::lawicel(),
+      servos_of(R"({"schema": "blactl-scenario/1", "clock": "real", "servos": [)" + servos + "]}"));
+  Background monitor(bench, {"-i", interface(adapter), "faults", "--watch"}, {}, "node 26");
+  std::this_thread::sleep_for(2s);
+  REQUIRE(::kill(monitor.pid(), SIGSTOP) == 0);
+  std::this_thread::sleep_for(4s);
+  REQUIRE(::kill(monitor.pid(), SIGCONT) == 0);
+  std::this_thread::sleep_for(3s);
+  const Result ended = monitor.stop(SIGINT);
+  INFO(ended.out << ended.err);
+  CHECK(codes(ended) == std::vector<std::string>{"interrupted"});
+  CHECK_FALSE(contains(ended.out + ended.err, "two units"));
+  CHECK_FALSE(contains(ended.out, "restarted"));
 }

@@ -15,13 +15,15 @@
 
 namespace blactl::can {
 
-/// A frame from another node, with the time at which the kernel (or the simulator) saw it.
+/// A frame from another node, with the time at which the kernel (or the simulator) saw it; see
+/// Bus::stamps().
 struct Received {
   Frame frame;
   Time at;
   WallTime wall;
-  bool is_timed =
-      true; ///< false: from a line of a log without a stamp; `at` is that of a line before
+  /// False: from a line of a log without a stamp, and `at` is that of a line before; or it has
+  /// waited while this process stood still, and `at` is when it was read.
+  bool is_timed = true;
 };
 
 /// The echo of one of our frames: some node has acknowledged it.
@@ -132,6 +134,9 @@ class Bus {
   /// Whether to call receive() also when descriptor() becomes writable: bytes that the transport
   /// has accepted are still waiting in this process.
   [[nodiscard]] virtual bool wants_to_write() const { return false; }
+
+  /// Whether a frame bears the time at which it came; else that at which this process read it.
+  [[nodiscard]] virtual bool stamps() const { return true; }
 
   /// Events come from the past: no node can be asked, no frame is accepted. Ends with Ended.
   [[nodiscard]] virtual bool is_replay() const { return false; }

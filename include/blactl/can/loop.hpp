@@ -29,6 +29,9 @@ using Event = std::variant<Received, Sent, BusFault, Overflow, Gone, Away, Back,
 
 /// One thread, one loop: everything above it is a state machine without I/O.
 ///
+/// It also tells when this process has stood still (SIGSTOP, a machine that is too busy), by the
+/// time that has passed without it: frames of a bus that does not stamp them have no times then.
+///
 /// Sending: the kernel transmits what it was given even after the process is gone, so frames are
 /// handed over a few at a time. Until something is heard or echoed, one frame probes the bus; after
 /// that at most three are in flight without an echo. The rest wait in this process.
@@ -77,7 +80,10 @@ class Loop {
     Time since;
   };
 
-  std::optional<Event> poll_once(Time deadline);
+  Event happening(Time deadline);
+  std::optional<Event> wait(Time deadline);
+  std::optional<Event> poll_once(Time wake);
+  void note_run(Time due);
   std::optional<Event> from_signals();
   std::optional<Event> from_bus();
   void heard(Time at);
@@ -95,6 +101,8 @@ class Loop {
   bool gone_ = false;
   Time last_heard_{};
   std::optional<Time> refused_at_; ///< when the bus refused the first frame of the queue
+  std::optional<Time> left_at_;    ///< when next() returned last
+  Time late_until_{};              ///< what is read by then may have waited
 };
 
 } // namespace blactl::can

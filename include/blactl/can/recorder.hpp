@@ -70,6 +70,8 @@ class Recorder final : public Bus {
 
   [[nodiscard]] bool wants_to_write() const override { return bus_->wants_to_write(); }
 
+  [[nodiscard]] bool stamps() const override { return bus_->stamps(); }
+
   [[nodiscard]] bool is_replay() const override { return bus_->is_replay(); }
 
   [[nodiscard]] bool is_paced() const override { return bus_->is_paced(); }

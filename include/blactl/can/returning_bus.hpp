@@ -50,6 +50,8 @@ class ReturningBus final : public Bus {
     return bus_ ? bus_->bus_off_hint() : Bus::bus_off_hint();
   }
 
+  [[nodiscard]] bool stamps() const override { return !bus_ || bus_->stamps(); }
+
   [[nodiscard]] int descriptor() const override { return bus_ ? bus_->descriptor() : -1; }
 
   [[nodiscard]] bool wants_to_write() const override { return bus_ && bus_->wants_to_write(); }

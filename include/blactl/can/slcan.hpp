@@ -94,6 +94,8 @@ class Slcan final : public Bus {
   /// adapter does not answer or is busy.
   [[nodiscard]] bool ask_status();
 
+  [[nodiscard]] bool stamps() const override { return false; }
+
   [[nodiscard]] int descriptor() const override;
 
   [[nodiscard]] bool wants_to_write() const override { return !outgoing_.empty(); }

@@ -3,6 +3,7 @@
 #include "blactl/base/json_reader.hpp"
 #include "blactl/base/read_file.hpp"
 #include "blactl/base/sha256.hpp"
+#include "blactl/fleet/line/counter_check.hpp"
 
 #include "cli/alloc/options.hpp"
 #include "cli/commands.hpp"
@@ -152,6 +153,12 @@ Report execute(const ProvisionOptions& options, Context& context) {
   if (!recipe) {
     report.fail(recipe.error());
     return report;
+  }
+  if (const auto own = context.shared().local_node_id) {
+    if (const auto free = fleet::check_own_id(*recipe, dronecan::NodeId(*own)); !free) {
+      report.fail(free.error());
+      return report;
+    }
   }
   ProvisionRun(options, std::move(*recipe), sha256(*text), context, report).run();
   return report;

@@ -255,20 +255,25 @@ bool ProvisionRun::conclude(const LedgerRecord& record, const Station& station) 
   return is_printed;
 }
 
-bool ProvisionRun::refuse_joined(Station& station) {
+/// `stands`: whether the last result does, as its unit is there.
+bool ProvisionRun::refuse_joined(Station& station, bool stands) {
   const auto record = station.refuse_joined();
   if (!record) {
     return stop(record.error());
   }
-  view_ ? view_->join(*record, station.reason()) : void();
+  if (view_) {
+    stands ? view_->join(*record, station.reason())
+           : view_->take(*record, station.reason(), station.is_repeating(), true);
+  }
   return conclude(*record, station);
 }
 
 bool ProvisionRun::take_off(Station& station) {
   for (;;) {
     const auto left = station.wait_until_off(idle_deadline());
-    if (left && *left == Station::Leaving::joined) {
-      if (!refuse_joined(station)) {
+    const bool is_joined = left && *left == Station::Leaving::joined;
+    if (is_joined || (left && *left == Station::Leaving::doubled)) {
+      if (!refuse_joined(station, is_joined)) {
         return false;
       }
       continue;

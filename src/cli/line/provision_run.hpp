@@ -61,7 +61,7 @@ class ProvisionRun : private WritingRun {
   [[nodiscard]] bool wait_for_label(const fleet::Station& station);
   [[nodiscard]] bool work_on(fleet::Station& station, const fleet::Station::Arrival& arrival);
   [[nodiscard]] bool conclude(const state::LedgerRecord& record, const fleet::Station& station);
-  [[nodiscard]] bool refuse_joined(fleet::Station& station);
+  [[nodiscard]] bool refuse_joined(fleet::Station& station, bool stands);
   [[nodiscard]] bool take_off(fleet::Station& station);
   [[nodiscard]] bool print(const state::LedgerRecord& record, const std::optional<Error>& reason);
   [[nodiscard]] bool put(std::string_view text);
@@ -79,6 +79,7 @@ class ProvisionRun : private WritingRun {
                   const std::string& message = {}) const;
   [[nodiscard]] Time idle_deadline() const;
   void end_by_idling();
+  void end_without_record();
 
   const ProvisionOptions& options_;
   fleet::Recipe recipe_;
@@ -90,9 +91,10 @@ class ProvisionRun : private WritingRun {
   std::unique_ptr<EventFile> events_; ///< null: none
   std::unique_ptr<StationView> view_; ///< null: lines
   LineTotals totals_{};
-  std::string last_line_{};         ///< of the last record, with its end
-  std::uint64_t counted_ = 0;       ///< for --count
-  std::uint64_t failed_in_row_ = 0; ///< for --stop-after
+  std::string last_line_{};            ///< of the last record, with its end
+  std::uint64_t counted_ = 0;          ///< for --count
+  std::uint64_t failed_in_row_ = 0;    ///< for --stop-after
+  std::optional<std::int64_t> gone_{}; ///< the number of one that fell silent before its end
 };
 
 } // namespace blactl::cli

@@ -64,10 +64,19 @@ void ProvisionRun::open_screen() {
   context_.session().on_resize([this] { view_->draw(); });
 }
 
+/// A number that was shown as gone, and owes nothing: that it stands in no record is said.
+void ProvisionRun::end_without_record() {
+  if (const auto number = std::exchange(gone_, std::nullopt)) {
+    context_.reporter().note(say<texts::provision_without_record>(*number));
+  }
+}
+
 void ProvisionRun::tell(StationStage stage, std::optional<std::int64_t> serial_number) {
   if (stage == StationStage::waiting) {
     logs_.begin();
+    end_without_record();
   }
+  gone_ = stage == StationStage::gone ? serial_number : std::nullopt;
   if (stage != StationStage::ended) { // its verdict is told
     LedgerRecord known;
     known.serial_number = serial_number;

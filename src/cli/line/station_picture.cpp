@@ -15,18 +15,25 @@ void StationPicture::enter(StationStage stage, std::optional<std::int64_t> seria
   case StationStage::waiting: // one that left before it was known has no record
     deed = deed == LineDeed::bring_back ? deed : LineDeed::connect;
     return;
-  case StationStage::recognised:
+  case StationStage::recognised: // an error is to be seen while the next one is asked who it is
     deed = LineDeed::leave;
-    last.reset();
+    if (!std::exchange(has_successor, false)) {
+      last.reset();
+    }
     joined.reset();
     return;
-  case StationStage::working: deed = LineDeed::hands_off; return;
+  case StationStage::working:
+    deed = LineDeed::hands_off;
+    last.reset();
+    return;
   case StationStage::gone:
     deed = LineDeed::bring_back;
+    last.reset();
     gone = serial_number;
     return;
   case StationStage::ended: return; // its record comes
   case StationStage::left:          // an error needs the full time without a frame
+    has_successor = false;
     deed = are_several() || (last && last->verdict == fleet::verdict::error && !is_repeating)
                ? LineDeed::leave
                : LineDeed::connect;
@@ -59,6 +66,7 @@ void StationPicture::take(const LedgerRecord& record, const std::optional<Error>
   last = record;
   reason = why;
   is_repeating = is_again;
+  has_successor = is_again && is_occupied;
   deed = !is_again     ? LineDeed::take_off
          : is_occupied ? LineDeed::leave // it is asked next
                        : LineDeed::connect;

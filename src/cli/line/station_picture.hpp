@@ -41,6 +41,7 @@ struct StationPicture {
   std::optional<state::LedgerRecord> joined{}; ///< of several, while the last result stands
   std::optional<Error> joined_reason{};
   bool is_repeating = false;      ///< as Station::is_repeating()
+  bool has_successor = false;     ///< another one lies there already: nobody takes off the last one
   std::string label{};            ///< that counts, or is being typed; shown in place of the note
   std::size_t waiting_labels = 0; ///< that were read ahead
   std::string bad_label{};        ///< the last one, if it was none: it has to be read again

@@ -31,6 +31,9 @@ inline constexpr Text provision_asks{"identifying it", "サーボを確認して
 inline constexpr Text provision_works{"do not take it off", "外さないで下さい"};
 inline constexpr Text provision_gone{"it is gone: connect it again",
                                      "サーボが外れました。もう一度接続して下さい"};
+inline constexpr Text provision_without_record{
+    "serial number {} was taken off before anything was written to it: it has no record",
+    "製造番号 {} は書込み前に取り外されたため、記録がありません"};
 inline constexpr Text provision_take_off{"take it off", "外して下さい"};
 inline constexpr Text provision_idle{"no servo came within {} s",
                                      "{} 秒以内にサーボが接続されませんでした"};

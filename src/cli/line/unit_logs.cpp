@@ -4,9 +4,13 @@
 #include "blactl/fleet/line/line_record.hpp"
 
 #include "cli/line/texts.hpp"
+#include "cli/log_target.hpp"
 
 #include <filesystem>
+#include <fstream>
+#include <string>
 #include <system_error>
+#include <utility>
 
 namespace blactl::cli {
 
@@ -28,7 +32,18 @@ Result<void> UnitLogs::open() {
   if (error) {
     return std::unexpected(not_kept(system_reason(error.value())));
   }
-  context_.record_to(folder_ + "/present.log");
+  const std::string present = folder_ + "/present.log";
+  if (auto fit = check_target(present, Content::log, "--logs"); !fit) {
+    return fit;
+  }
+  std::ofstream(present, std::ios::app); // there is something to hold
+  auto hold = FileHold::take(present);
+  if (!hold) {
+    return std::unexpected(hold.error().code == Code::busy ? hold.error()
+                                                           : not_kept(hold.error().message));
+  }
+  hold_.emplace(std::move(*hold));
+  context_.record_to(present);
   return {};
 }
 

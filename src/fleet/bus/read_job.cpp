@@ -123,6 +123,13 @@ bool ReadJob::is_in_doubt() const {
   return proof_ == Proof::unit && was_silent_ && repeats_ < most_repeats;
 }
 
+/// As Identification::may_be_of_two(): another one may have been here, and gone again.
+bool ReadJob::may_be_of_two() const {
+  const Member member = roster_.member(id_);
+  return member.sends_actuator_status() && member.back_at > snapshot_.servo.since &&
+         repeats_ < most_repeats;
+}
+
 /// It is no proof of a restart.
 Step ReadJob::read_again_after_silence(Time now) {
   was_silent_ = false;
@@ -186,7 +193,8 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
   const std::uint8_t id = id_.value();
   switch (run_proof_->verdict()) {
   case RunProof::Verdict::ran_on:
-    return is_in_doubt() ? read_again_after_silence(outcome.at) : judge_writers(outcome.at);
+    return is_in_doubt() || may_be_of_two() ? read_again_after_silence(outcome.at)
+                                            : judge_writers(outcome.at);
   case RunProof::Verdict::failed: return give_up(told_by(*run_proof_->error()));
   case RunProof::Verdict::too_late:
     if (passes_ == most_passes || is_about_earlier_run()) {

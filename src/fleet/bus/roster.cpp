@@ -195,7 +195,8 @@ void Roster::hear(const can::Frame& frame, Time at) {
   heard.last_heard = at;
   answers_.receive(*header, frame, at);
   const std::uint8_t tail = frame.data[frame.size - 1U];
-  if (header->kind == Kind::message && header->data_type_id == dronecan::ActuatorStatus::type.id &&
+  if (!is_late_ && header->kind == Kind::message &&
+      header->data_type_id == dronecan::ActuatorStatus::type.id &&
       (tail & tail_start_of_transfer) != 0) {
     watches_[header->source.value()].count_actuator_status(frame, at);
   }
@@ -203,9 +204,18 @@ void Roster::hear(const can::Frame& frame, Time at) {
     heard.first_heard = at;
     announce(heard);
   }
-  if (header->kind == Kind::message && header->data_type_id == dronecan::NodeStatus::type.id) {
+  if (!is_late_ && header->kind == Kind::message &&
+      header->data_type_id == dronecan::NodeStatus::type.id) {
     hear_status(heard, frame, at);
   }
+}
+
+/// The present uptimes tell of restarts in the meantime.
+void Roster::be_late(bool is_late) {
+  if (is_late && !is_late_) {
+    std::ranges::for_each(watches_, &UnitWatch::begin_rates_anew);
+  }
+  is_late_ = is_late;
 }
 
 Time Roster::last_heard() const {
@@ -238,7 +248,7 @@ void Roster::hear_status(Member& sender, const can::Frame& frame, Time at) {
     const dronecan::TransferId id = frame.data[size] % dronecan::transfer_id_modulus;
     UnitWatch& watch = watches_[sender.id.value()];
     watch.count_node_status(frame, status->uptime_s, at);
-    take(watch.hear_repetition(id, status->uptime_s, at), sender);
+    take(watch.hear_repetition(id, status->uptime_s, at), sender, sender.status_at);
   }
 }
 
@@ -289,6 +299,7 @@ void Roster::forget_doubled(Time since) {
   }
 }
 
+/// Another unit has come in a silence: what is known of this ID was told by the one before.
 void Roster::begin_anew(NodeId id) {
   doubled_.erase(id);
   units_.erase(id);
@@ -308,9 +319,14 @@ void Roster::receive(const Transfer& transfer) {
         info && header.source.is_unicast()) {
       Member& sender = known(header.source);
       greet(sender, transfer.at);
+      if (accepts_exchanges_ && sender.may_be_another() &&
+          sender.is_another_unit(info->unique_id)) {
+        begin_anew(header.source);
+      }
+      const Time heard_before = std::exchange(sender.status_at, transfer.at);
       sender.status = info->status;
-      sender.status_at = transfer.at;
-      take(watches_[header.source.value()].hear_answer(info->status.uptime_s, transfer), sender);
+      take(watches_[header.source.value()].hear_answer(info->status.uptime_s, transfer), sender,
+           heard_before);
       learn(header.source, *info, transfer.at);
     }
   }
@@ -340,8 +356,11 @@ void Roster::on_status(const Transfer& transfer) {
   Member& sender = known(transfer.header.source);
   greet(sender, transfer.at);
   sender.status = *status;
-  sender.status_at = transfer.at;
-  take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender);
+  const Time heard_before = std::exchange(sender.status_at, transfer.at);
+  if (!is_late_) {
+    take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender,
+         heard_before);
+  }
 }
 
 /// What was written to this node ID before concerned somebody else, or nobody.
@@ -351,9 +370,12 @@ void Roster::greet(const Member& sender, Time at) {
   }
 }
 
-/// Takes the result of an uptime for a node.
-void Roster::take(UnitWatch::Start start, Member& sender) {
-  if (start == UnitWatch::Start::twin) {
+/// Takes the result of an uptime for a node; `heard_before`: the uptime before it.
+void Roster::take(UnitWatch::Start start, Member& sender, Time heard_before) {
+  const bool may_be_exchanged = accepts_exchanges_ && sender.back_at > heard_before;
+  if (start == UnitWatch::Start::twin && may_be_exchanged) {
+    begin_anew(sender.id);
+  } else if (start == UnitWatch::Start::twin) {
     doubled_[sender.id] = sender.last_heard;
   } else if (start == UnitWatch::Start::anew) {
     begin_unit(sender);

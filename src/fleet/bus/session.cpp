@@ -113,9 +113,9 @@ Result<Session::Happened> Session::step(Time deadline) {
   auto happened = take(event);
   if (!happened || *happened != Happened::deadline) {
     // everything before this frame has been read: timeouts are known up to here, even if frames
-    // come faster than they can be read
+    // come faster than they can be read; but of one that waited nobody knows when it came
     const auto* received = std::get_if<can::Received>(&event);
-    if (happened && received != nullptr) {
+    if (happened && received != nullptr && (received->is_timed || replay_)) {
       advance(received->at);
       return received->at >= deadline ? Happened::deadline : *happened;
     }
@@ -253,7 +253,9 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
       traffic_->stamp(received.wall);
     }
   }
-  if (!received.is_timed) {
+  if (!replay_) {
+    roster_.be_late(!received.is_timed);
+  } else if (!received.is_timed) {
     roster_.lose_time();
   }
   roster_.hear(received.frame, received.at);

@@ -1,6 +1,7 @@
 #include "fleet/change/rounds.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
@@ -140,6 +141,12 @@ std::vector<Error> Rounds::make_rounds() {
   const std::vector<Wish> wishes = wishes_of(units_);
   IdRounds moves;
   if (!wishes.empty()) {
+    const auto own = std::ranges::find(wishes, session_.roster().local(),
+                                       &state::AllocationStore::Wish::node_id);
+    if (own != wishes.end()) {
+      return {{Code::duplicate_node_id, say<texts::node_id_is_ours>(own->node_id.value()),
+               say<texts::node_id_is_ours_hint>(), own->node_id.value()}};
+    }
     if (const auto learned = learn_ids(); !learned) {
       return {learned.error()};
     }

@@ -6,7 +6,10 @@
 
 #include "fleet/line/station_texts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <tuple>
@@ -49,6 +52,28 @@ Result<void> check_counters(const state::LedgerStore& ledger, const state::Count
                                 say<texts::counters_behind>(unknown.size(), printable(recipe.name),
                                                             hex(*unknown.begin())),
                                 say<texts::counters_behind_hint>());
+}
+
+Result<void> check_own_id(const Recipe& recipe, dronecan::NodeId own) {
+  const auto refused = [&](std::int64_t first, std::int64_t last) {
+    const std::string ids =
+        first == last ? std::to_string(first) : fmt::format("{}-{}", first, last);
+    return fail(Code::usage, say<texts::own_id_is_given>(own.value(), ids),
+                say<texts::own_id_is_given_hint>(ids));
+  };
+  for (const Counter& counter : recipe.counters) {
+    const bool is_within = own.value() >= counter.first && own.value() <= counter.last;
+    if (counter.parameter->address == bla::address::static_node_id && is_within &&
+        (own.value() - counter.first) % counter.step == 0) {
+      return refused(counter.first, counter.last);
+    }
+  }
+  for (const bla::Assignment& each : recipe.set) {
+    if (each.parameter->address == bla::address::static_node_id && each.value.raw == own.value()) {
+      return refused(own.value(), own.value());
+    }
+  }
+  return {};
 }
 
 } // namespace blactl::fleet

@@ -45,6 +45,13 @@ inline constexpr Text counters_behind_hint{
     "`blactl ledger --backup FILE` で作成した最新の FILE.counters を状態フォルダーの counters.db に"
     "コピーするか、レシピの名前を変え、`blactl ledger` に"
     "ある ID の次からカウンターを始めて下さい"};
+inline constexpr Text own_id_is_given{
+    "--local-node-id {}: the recipe gives servos the node ID {}, and the station would have the "
+    "same",
+    "--local-node-id {}: レシピがサーボに設定するノード ID {} と重複します"};
+inline constexpr Text own_id_is_given_hint{
+    "leave out --local-node-id (the station is 127 or 126 then), or give another one than {}",
+    "--local-node-id を外すか (127 か 126 になります)、{} 以外の ID を指定して下さい"};
 inline constexpr Text station_unproven{"it is not proven what the servo holds now",
                                        "サーボの現在の設定を確認できませんでした"};
 

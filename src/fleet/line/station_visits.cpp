@@ -324,7 +324,7 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
         (last_.unit ? succession.has_last() : is_there && (!is_other || last_.are_several));
     if (is_other && !last_.are_several && !last_.is_to_be_repeated &&
         (succession.has_last(others_since) || is_any_doubled(servos))) {
-      return Leaving::joined;
+      return is_any_doubled(servos) ? Leaving::doubled : Leaving::joined;
     }
     const bool is_next = last_.is_to_be_repeated ? is_there : is_other && !is_last_there;
     if (is_next && !last_.are_several) {

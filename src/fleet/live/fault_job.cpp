@@ -40,14 +40,17 @@ std::vector<Error> errors_of(const Snapshot& snapshot, const Roster& roster) {
   return needed.errors();
 }
 
-FaultState state_of(Snapshot snapshot, const Roster& roster, const bla::Profiles& profiles) {
+/// `at`: the end of the look; on a recording, which may end much later, when it was last heard.
+FaultState state_of(Snapshot snapshot, const Roster& roster, const bla::Profiles& profiles,
+                    std::optional<Time> at) {
   FaultState state{.snapshot = std::move(snapshot), .faults = {}, .health = {}, .errors = {}};
   state.errors = errors_of(state.snapshot, roster);
   if (roster.is_doubled(state.snapshot.servo.id)) {
     state.snapshot.readings.clear(); // they may be either unit's
   }
   state.faults = bla::faults(state.snapshot.values(), profiles);
-  if (const auto& status = roster.member(state.snapshot.servo.id).status) {
+  const Member member = roster.member(state.snapshot.servo.id);
+  if (const auto status = member.status_as_of(at.value_or(member.last_heard))) {
     state.health = status->health;
   }
   return state;
@@ -180,7 +183,8 @@ Step FaultJob::next(const Outcome& outcome) {
 }
 
 Step FaultJob::judge(Time now) {
-  state_ = state_of(read_->snapshot(), session_.roster(), profiles_);
+  state_ = state_of(read_->snapshot(), session_.roster(), profiles_,
+                    session_.is_replay() ? std::nullopt : std::optional(now));
   if (is_second_) {
     if (state_.errors.empty() && contradicts_itself(state_)) {
       const std::uint8_t id = state_.snapshot.servo.id.value();
@@ -205,6 +209,7 @@ Step FaultJob::judge(Time now) {
 
 FaultStates read_faults(Session& session, const bla::Profiles& profiles,
                         std::span<const NodeId> servos, const Identification::Options& options) {
+  session.records().accept_exchanges();
   std::list<FaultJob> jobs;
   std::vector<dronecan::Job*> group;
   for (const NodeId id : servos) {

@@ -18,6 +18,7 @@ FaultWatch::FaultWatch(Session& session, const bla::Profiles& profiles,
                        std::span<const dronecan::NodeId> servos,
                        const Identification::Options& options, Duration interval)
     : session_(session), profiles_(profiles), options_(options), interval_(interval) {
+  session.records().accept_exchanges();
   for (const dronecan::NodeId id : servos) {
     looks_.push_back({.id = id, .due = session.now()});
   }

@@ -75,6 +75,7 @@ Monitor::Monitor(Session& session, const bla::Profiles& profiles, Targets target
       (is_fast(field) ? plan_.often : plan_.seldom).push_back(address_of(field));
     }
   }
+  session_.records().accept_exchanges();
   session_.attach(*this);
   for (const NodeId id : targets_.ids) {
     attend(id);
@@ -146,16 +147,12 @@ void Monitor::receive(const Transfer& transfer) {
   }
 }
 
-/// Another unit that answers after a silence, with no frame since then of the one before, has come
-/// in its place: they are not two under one ID.
+/// Counts the restarts of the unit that answers now.
 void Monitor::meet(Watched& node, const Member& member) {
   if (!member.info || member.info_at == node.unit_at) {
     return;
   }
   const bool is_other = node.unit && member.info->unique_id != *node.unit;
-  if (is_other && member.info_boot == node.boot && member.back_at > node.unit_at) {
-    session_.records().begin_anew(member.id);
-  }
   node.first_boot = is_other ? member.boots : node.first_boot;
   node.unit = member.info->unique_id;
   node.unit_at = member.info_at;
@@ -322,9 +319,9 @@ Servo Monitor::servo(const Member& member, const Watched& node) const {
 LiveServo Monitor::live(const Member& member, const Watched& node, Time now) const {
   const bool is_doubled = session_.roster().is_doubled(member.id);
   const bool is_in_doubt = asks() && member.may_be_another();
-  const bool is_told = !is_in_doubt && now - member.status_at < offline_time;
+  const auto status = is_in_doubt ? std::nullopt : member.status_as_of(now);
   LiveServo out{.servo = is_doubled ? Servo{.id = member.id} : servo(member, node),
-                .status = is_told ? member.status : std::nullopt,
+                .status = status,
                 .first_heard = member.first_heard,
                 .last_heard = member.last_heard,
                 .restarts = member.boots - node.first_boot,
@@ -357,7 +354,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
     out.limits[field] = {bla::find(values, limits[field].low),
                          bla::find(values, limits[field].high)};
   }
-  out.is_stale = (member.status && !is_told) || is_stale(out, now);
+  out.is_stale = (member.status && !status) || is_stale(out, now);
   out.has_turned = options_.watches_turns && node.turns.has_turned(now);
   return out;
 }

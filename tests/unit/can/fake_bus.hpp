@@ -30,6 +30,8 @@ struct Wire {
   bool open = true;     ///< else it takes no frame, until Opened has happened
   std::size_t full = 0; ///< how many sends find the queue full
   std::uint64_t unreadable = 0;
+  bool stamps = true;
+  Duration oversleep{};       ///< the process stands still at the end of the next wait
   std::optional<Error> error; ///< of every send
   std::size_t tries = 0;      ///< how often send() was called
   std::vector<Frame> sent;    ///< taken from the loop
@@ -103,6 +105,8 @@ class FakeBus final : public Bus {
 
   [[nodiscard]] std::uint64_t unreadable() const override { return wire_.unreadable; }
 
+  [[nodiscard]] bool stamps() const override { return wire_.stamps; }
+
   [[nodiscard]] int descriptor() const override { return -1; }
 
   [[nodiscard]] Time now() const override { return wire_.now; }
@@ -113,7 +117,7 @@ class FakeBus final : public Bus {
     const Time next = wire_.events.empty() ? never : wire_.events.begin()->first;
     const Time end = std::min(deadline, next);
     if (end != never) {
-      wire_.now = std::max(wire_.now, end);
+      wire_.now = std::max(wire_.now, end) + std::exchange(wire_.oversleep, Duration{});
     }
     return end;
   }

@@ -388,3 +388,28 @@ TEST_CASE("without a bus the loop has the time of the machine") {
   CHECK(loop.now() >= before);
   CHECK(loop.wall() > WallTime(std::chrono::sys_days(std::chrono::year(2020) / 1 / 1)));
 }
+
+TEST_CASE(
+    "frames that waited while the process stood still have no times, unless the bus has some") {
+  const bool stamps = GENERATE(false, true);
+  const bool stood_in_wait = GENERATE(false, true);
+  INFO(stamps << stood_in_wait);
+  Rig rig;
+  rig.wire.stamps = stamps;
+  const auto is_timed = [&] {
+    rig.wire.hear(frame(1));
+    const Event event = rig.loop.next(rig.wire.now + 1s);
+    REQUIRE(std::holds_alternative<Received>(event));
+    return std::get<Received>(event).is_timed;
+  };
+  CHECK(is_timed());
+  if (stood_in_wait) {
+    rig.wire.oversleep = 4s;
+    CHECK(std::holds_alternative<DeadlineReached>(rig.loop.next(rig.wire.now + 100ms)));
+  } else {
+    rig.wire.now += 4s;
+  }
+  CHECK(is_timed() == stamps);
+  CHECK(std::holds_alternative<DeadlineReached>(rig.loop.next(rig.wire.now + 5s))); // silence
+  CHECK(is_timed());
+}

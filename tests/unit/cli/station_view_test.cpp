@@ -165,11 +165,14 @@ TEST_CASE("a unit that was spoilt has its small place until it was finished") {
   spoilt.code = "not_back";
   picture.take(spoilt, pulled, true, true);
   CHECK(is_owed("! 240900558"));
-  CHECK(is_large());                              // the verdict
+  CHECK(is_large()); // the verdict
+  picture.enter(fleet::StationStage::take_off);
   picture.enter(fleet::StationStage::recognised); // another one was there already
   CHECK(is_owed("! 240900558"));
-  CHECK_FALSE(is_large());
+  CHECK(is_large()); // the verdict is still to be seen
+  CHECK(has(text_of(lines()), "WAIT"));
   picture.enter(fleet::StationStage::working);
+  CHECK(is_owed("! 240900558"));
   CHECK_FALSE(is_large());
   picture.enter(fleet::StationStage::gone, 240900559); // this one, too: its own number counts
   CHECK(is_large());
@@ -189,6 +192,30 @@ TEST_CASE("a unit that was spoilt has its small place until it was finished") {
     picture.take(record("error", unit), pulled, true, false);
   }
   CHECK(is_owed("+"));
+}
+
+TEST_CASE(
+    "an error stays over the unit beside it until that is worked on, and not over the next one") {
+  const Error pulled{Code::not_back, "it was taken off too early"};
+  StationPicture picture;
+  const auto says = [&](const char* text) { return has(text_of(lines_of(picture, 53, 16)), text); };
+  picture.take(record("error"), pulled, true, true);
+  SECTION("that one has a result at once") {
+    picture.enter(fleet::StationStage::recognised);
+    CHECK(says("240900558"));
+    picture.take(record("skip", "b"), std::nullopt, false, true);
+    CHECK(cells(lines_of(picture, 53, 16), Look::skip_block) > 100);
+  }
+  SECTION("that one goes, too") {
+    picture.enter(fleet::StationStage::recognised);
+    picture.enter(fleet::StationStage::gone, 7);
+    CHECK_FALSE(picture.last);
+  }
+  SECTION("the bench was empty meanwhile") {
+    picture.enter(fleet::StationStage::left);
+    picture.enter(fleet::StationStage::recognised);
+    CHECK_FALSE(picture.last);
+  }
 }
 
 TEST_CASE("the number of the last one is large, and of a swapped label both are") {

@@ -1,8 +1,11 @@
 #include "blactl/fleet/live/fault_job.hpp"
 
+#include "replugged.hpp"
 #include "support.hpp"
 
 #include <array>
+#include <memory>
+#include <vector>
 
 using namespace blactl;
 using namespace blactl::fleet;
@@ -67,5 +70,27 @@ TEST_CASE("where NodeStatus tells of more than 0x18 did, all four registers are 
   CHECK(states.servos[0].errors.empty());
   for (const bla::Address reg : bla::all_fault_registers) {
     CHECK(states.servos[0].snapshot.raw(reg));
+  }
+}
+
+TEST_CASE("what another servo told, that was here while one was read, is not told as that one's") {
+  for (Duration there = 0ms; there < 6ms; there += 250us) {
+    INFO(there.count());
+    const Time off(20s);
+    const Time again = off + 500ms + there; // after the repeated request has come to the other one
+    auto opened = Session::open(
+        std::make_unique<Replugged>(servo_1001, servo_1002,
+                                    std::vector{Gap{off, off + 400ms}, Gap{again, again + 700ms}}),
+        state::LocalNodeId::unshared({}), Session::Hearing::commands, profiles());
+    REQUIRE(opened);
+    Session& session = **opened;
+    REQUIRE(session.live_until(Time(15s)));
+    const std::array node_20{NodeId(20)};
+    REQUIRE(read_faults(session, profiles(), node_20, {}).servos.at(0).errors.empty());
+    REQUIRE(session.live_until(off));
+    const auto states = read_faults(session, profiles(), node_20, {});
+    const FaultState& state = states.servos.at(0);
+    CHECK(state.snapshot.servo.identity.readings().serial_number == 1001);
+    CHECK((!state.errors.empty() || state.faults.size() == 1)); // no pulse at PWM
   }
 }

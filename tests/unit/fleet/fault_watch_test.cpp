@@ -1,8 +1,11 @@
 #include "blactl/fleet/live/fault_watch.hpp"
 
+#include "replugged.hpp"
 #include "support.hpp"
 
 #include <array>
+#include <memory>
+#include <vector>
 
 using namespace blactl;
 using namespace blactl::fleet;
@@ -16,6 +19,19 @@ constexpr std::array both{NodeId(11), NodeId(12)};
 Scene scene_with_a_mute_servo() {
   return Scene(R"("servos": [{"model": "BLA15-06U-A0", "node_id": 11},
                              {"model": "BLA15-06U-A0", "node_id": 12, "faults": {"mute": true}}])");
+}
+
+/// A session on servos 1001 and 1002 of node ID 20, whose cable is replugged.
+std::unique_ptr<Session> replugged(std::vector<Gap> gaps) {
+  auto opened =
+      Session::open(std::make_unique<Replugged>(servo_1001, servo_1002, std::move(gaps)),
+                    state::LocalNodeId::unshared({}), Session::Hearing::commands, profiles());
+  REQUIRE(opened);
+  return std::move(*opened);
+}
+
+std::optional<std::int64_t> serial_of(const FaultState& state) {
+  return state.snapshot.servo.identity.readings().serial_number;
 }
 
 } // namespace
@@ -94,4 +110,53 @@ TEST_CASE("a watch that ends leaves no look behind") {
     CHECK(scene.session->node().jobs() == 1);
   }
   CHECK(scene.session->node().jobs() == 0);
+}
+
+TEST_CASE("two servos exchanged on one node ID whose uptimes are equal are not two at once") {
+  for (const Duration silence : {300ms, 1000ms, 5000ms}) {
+    INFO(silence.count());
+    const auto session = replugged({{Time(5s), Time(5s) + silence}});
+    FaultWatch watch(*session, profiles(), std::array{NodeId(20)}, {}, 500ms);
+    std::optional<std::int64_t> last;
+    while (session->now() < Time(7s) + silence) {
+      const auto seen = watch.next();
+      REQUIRE(seen);
+      for (const FaultState& state : *seen) {
+        for (const Error& error : state.errors) {
+          CHECK(error.code != Code::duplicate_node_id);
+        }
+        if (state.errors.empty()) {
+          last = serial_of(state);
+          CHECK(state.faults.size() == (last == 1001 ? 1U : 2U)); // both: no pulse at PWM
+        }
+      }
+    }
+    CHECK(last == 1002);
+  }
+}
+
+TEST_CASE("two exchanges whose units have started at different times are not two at once") {
+  auto opened = Session::open(
+      std::make_unique<Replugged>(servo_1001,
+                                  R"({"model": "BLA21-12U-AB", "node_id": 20, "serial_number": 1002,
+              "behaviour": {"boot_time": "3s"}})",
+                                  std::vector{Gap{Time(8s), Time(9s)}, Gap{Time(13s), Time(14s)}}),
+      state::LocalNodeId::unshared({}), Session::Hearing::commands, profiles());
+  REQUIRE(opened);
+  FaultWatch watch(**opened, profiles(), std::array{NodeId(20)}, {}, 500ms);
+  std::vector<std::int64_t> told;
+  while ((*opened)->now() < Time(18s)) {
+    const auto seen = watch.next();
+    REQUIRE(seen);
+    for (const FaultState& state : *seen) {
+      for (const Error& error : state.errors) {
+        CHECK(error.code != Code::duplicate_node_id);
+      }
+      const auto serial = state.errors.empty() ? serial_of(state) : std::nullopt;
+      if (serial && (told.empty() || told.back() != *serial)) {
+        told.push_back(*serial);
+      }
+    }
+  }
+  CHECK(told == std::vector<std::int64_t>{1001, 1002, 1001});
 }

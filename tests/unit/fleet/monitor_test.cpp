@@ -1,5 +1,6 @@
 #include "blactl/fleet/live/monitor.hpp"
 
+#include "replugged.hpp"
 #include "support.hpp"
 
 #include <algorithm>
@@ -9,67 +10,6 @@ using namespace blactl::fleet;
 using namespace blactl::fleet::test;
 
 namespace {
-
-std::unique_ptr<can::Bus> bus_of(std::string_view servos) {
-  const auto scenario = sim::parse_scenario(
-      fmt::format(R"({{"schema": "blactl-scenario/1", "clock": "virtual", "servos": [{}]}})",
-                  servos),
-      "test.json", profiles());
-  INFO((scenario ? "" : scenario.error().message));
-  REQUIRE(scenario);
-  return std::make_unique<sim::PrivateBus>("sim:test.json", *scenario);
-}
-
-/// The cable is pulled off one bus at `off`, and is on the other one from `on`. Both run all the
-/// time.
-class Replugged final : public blactl::test::BusAround {
- public:
-  Replugged(std::string_view one, std::string_view other, Time off, Time on)
-      : BusAround(bus_of(one)), other_(bus_of(other)), off_(off), on_(on) {}
-
-  [[nodiscard]] Result<bool> send(const can::Frame& frame) override {
-    return now() < off_ ? BusAround::send(frame) : other_->send(frame);
-  }
-
-  [[nodiscard]] std::optional<can::BusEvent> receive() override {
-    if (now() < off_) {
-      return BusAround::receive();
-    }
-    auto event = other_->receive();
-    const auto* received = event ? std::get_if<can::Received>(&*event) : nullptr;
-    return received != nullptr && received->at < on_ ? std::nullopt : event;
-  }
-
-  [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override {
-    REQUIRE(other_->filter(filters));
-    return BusAround::filter(filters);
-  }
-
-  [[nodiscard]] Time now() const override { return std::max(BusAround::now(), other_->now()); }
-
-  [[nodiscard]] Time idle_until(Time deadline) override {
-    const bool is_on_first = now() < off_;
-    const Time end = is_on_first ? BusAround::idle_until(std::min(deadline, off_))
-                                 : other_->idle_until(deadline);
-    while (is_on_first && other_->now() < end) {
-      while (other_->receive()) {
-      }
-      (void)other_->idle_until(end);
-    }
-    return end;
-  }
-
- private:
-  std::unique_ptr<can::Bus> other_;
-  Time off_, on_;
-};
-
-constexpr std::string_view servo_1001 =
-    R"({"model": "BLA21-12U-AB", "node_id": 20, "serial_number": 1001,
-        "behaviour": {"boot_time": "100ms"}})";
-constexpr std::string_view servo_1002 =
-    R"({"model": "BLA21-12U-AB", "node_id": 20, "serial_number": 1002,
-        "rom": {"temperature_limit_high": "20degC"}, "behaviour": {"boot_time": "100ms"}})";
 
 /// From 5 s on no NodeStatus is heard, but all else is.
 class WithoutStatus final : public blactl::test::BusAround {
@@ -93,7 +33,8 @@ class Watching {
  public:
   /// The cable of servo 1001 is pulled at 5 s, and is on the other one after the silence.
   Watching(std::string_view other, Duration silence, std::string_view list)
-      : Watching(std::make_unique<Replugged>(servo_1001, other, Time(5s), Time(5s) + silence),
+      : Watching(std::make_unique<Replugged>(servo_1001, other,
+                                             std::vector{Gap{Time(5s), Time(5s) + silence}}),
                  list) {}
 
   Watching(std::unique_ptr<can::Bus> bus, std::string_view list)

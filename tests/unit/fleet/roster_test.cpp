@@ -1064,3 +1064,38 @@ TEST_CASE("who writes to a setting of another node is remembered; commands and r
   ear.get_set(127, 12, {.value = std::int64_t{900}, .name = "0x38"}); // it is ours
   CHECK_FALSE(ear.roster.writer_to(NodeId(12), before));
 }
+
+TEST_CASE(
+    "frames that waited while nobody read are of one unit, in one run, however many are lost") {
+  const bool has_restarted = GENERATE(false, true);
+  Ear ear;
+  for (std::uint32_t uptime_s = 100; uptime_s < 105; ++uptime_s) {
+    ear.status(11, uptime_s);
+    for (int i = 0; i < 10; ++i) {
+      ear.actuator(11);
+      ear.now += 100ms;
+    }
+  }
+  ear.now += 4s;
+  ear.roster.be_late(true);
+  for (std::uint32_t uptime_s = 105; uptime_s < 108; ++uptime_s) {
+    ear.status(11, uptime_s);
+    for (int i = 0; i < 10; ++i) {
+      ear.actuator(11);
+      ear.lose_actuator();
+      for (int lost = 0; i % 3 == 0 && lost < 20; ++lost) {
+        ear.lose_actuator();
+      }
+    }
+  }
+  ear.roster.be_late(false);
+  for (std::uint32_t uptime_s = has_restarted ? 2 : 109; ear.now < Time(1020s); ++uptime_s) {
+    ear.status(11, uptime_s);
+    for (int i = 0; i < 10; ++i) {
+      ear.actuator(11);
+      ear.now += 100ms;
+    }
+  }
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(11)));
+  CHECK(ear.roster.member(NodeId(11)).boots == (has_restarted ? 1U : 0U));
+}

@@ -61,6 +61,7 @@ class ReadJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step read_next(Time now);
   [[nodiscard]] bool may_have_restarted(const dronecan::Outcome& outcome);
   [[nodiscard]] bool is_in_doubt() const;
+  [[nodiscard]] bool may_be_of_two() const;
   [[nodiscard]] dronecan::Step read_again_after_silence(Time now);
   [[nodiscard]] bool has_next();
   [[nodiscard]] dronecan::Step prove(Time now);

@@ -24,6 +24,10 @@
 
 namespace blactl::fleet {
 
+/// A node sends NodeStatus at least once a second; after this silence it is offline
+/// (uavcan/protocol/341.NodeStatus).
+inline constexpr Duration offline_time = std::chrono::seconds(3);
+
 /// One node ID on the bus and the facts about its unit.
 struct Member {
   dronecan::NodeId id{};
@@ -62,6 +66,11 @@ struct Member {
     return status ? std::optional(status->health) : std::nullopt;
   }
 
+  /// What it told of itself in the offline_time before `at`; empty: it may be otherwise by now.
+  [[nodiscard]] std::optional<dronecan::NodeStatus> status_as_of(Time at) const {
+    return at - status_at < offline_time ? status : std::nullopt;
+  }
+
   /// Identified, and not restarted since.
   [[nodiscard]] bool is_known() const { return identified && identified_boot == boots; }
 
@@ -92,10 +101,6 @@ struct Member {
   /// The present knowledge of the unit.
   [[nodiscard]] Servo servo() const;
 };
-
-/// A node sends NodeStatus at least once a second; after this silence it is offline
-/// (uavcan/protocol/341.NodeStatus).
-inline constexpr Duration offline_time = std::chrono::seconds(3);
 
 /// The listening time after which commanders, armed vehicles, shared IDs and used IDs have been
 /// heard.
@@ -158,6 +163,10 @@ class Roster {
   /// As UnitWatch::lose_time().
   void lose_time() { std::ranges::for_each(watches_, &UnitWatch::lose_time); }
 
+  /// Whether what comes now has waited, nobody knows how long: its times tell nothing of uptimes
+  /// and rates.
+  void be_late(bool is_late);
+
   void receive(const dronecan::Transfer& transfer);
 
   /// As AllocationWatch::give().
@@ -215,9 +224,9 @@ class Roster {
   /// servos do not forget.
   void forget_doubled(Time since);
 
-  /// Another unit has come in a silence: what is known of this ID was told by the one before. For
-  /// commands that keep watching.
-  void begin_anew(dronecan::NodeId id);
+  /// From now on another unit that shows after a silence has taken the place of the one before it;
+  /// else they are two. Two that are there at once leave no silence. For commands that only look.
+  void accept_exchanges() { accepts_exchanges_ = true; }
 
   /// Forgets the nodes that were not heard since then: another unit that comes on such an ID is no
   /// second one; and allocators that have been silent. For a command that sees one servo
@@ -344,7 +353,8 @@ class Roster {
   void hear_status(Member& sender, const can::Frame& frame, Time at);
   void on_status(const dronecan::Transfer& transfer);
   void greet(const Member& sender, Time at);
-  void take(UnitWatch::Start start, Member& sender);
+  void take(UnitWatch::Start start, Member& sender, Time heard_before);
+  void begin_anew(dronecan::NodeId id);
   [[nodiscard]] std::optional<Time> doubled_at(dronecan::NodeId id) const;
   void begin_unit(Member& member);
 
@@ -359,7 +369,9 @@ class Roster {
   std::array<UnitWatch, 128> watches_{};
   CommandWatch commands_;
   dronecan::AnswerWatch answers_;
-  std::map<dronecan::NodeId, Time> doubled_;                       ///< when that last showed
+  std::map<dronecan::NodeId, Time> doubled_; ///< when that last showed
+  bool accepts_exchanges_ = false;
+  bool is_late_ = false;                                           ///< what is heard has waited
   std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
   AllocationWatch allocations_;
 };

@@ -27,7 +27,7 @@ class MessageRate {
   /// this one; a transfer ID further ahead, or behind, shows another unit.
   void count(const can::Frame& frame, Time at, unsigned most_lost);
 
-  /// The sender has restarted.
+  /// The sender has restarted, or was not listened to.
   void begin_anew() { window_start_.reset(); }
 
   /// When two units were last seen to send them; empty: never.
@@ -71,6 +71,12 @@ class UnitWatch {
 
   /// Forgets what was heard.
   void begin_anew();
+
+  /// Some messages were not counted.
+  void begin_rates_anew() {
+    actuator_statuses_.begin_anew();
+    node_statuses_.begin_anew();
+  }
 
   /// The transfers have no times from here on, as in a log without stamps: then only an uptime that
   /// goes back tells of a restart, and nothing here of a second unit.

@@ -1,8 +1,9 @@
 #pragma once
-// Whether the table of assigned IDs knows what a production line has given already (contract,
-// section 6: within one lap of a counter no ID is given twice).
+// What a production line may give: IDs that its table of assigned IDs knows (contract, section 6:
+// within one lap of a counter no ID is given twice), and not that of the station itself.
 
 #include "blactl/base/error.hpp"
+#include "blactl/dronecan/ids.hpp"
 #include "blactl/fleet/files/recipe.hpp"
 #include "blactl/state/counter_store.hpp"
 #include "blactl/state/ledger_store.hpp"
@@ -15,5 +16,8 @@ namespace blactl::fleet {
 [[nodiscard]] Result<void> check_counters(const state::LedgerStore& ledger,
                                           const state::CounterStore& counters,
                                           const Recipe& recipe);
+
+/// Whether this recipe ever gives a servo the node ID `own`. Errors: usage: it does.
+[[nodiscard]] Result<void> check_own_id(const Recipe& recipe, dronecan::NodeId own);
 
 } // namespace blactl::fleet

@@ -61,6 +61,7 @@ class Station {
     gone,     ///< no servo has been heard for 3 s
     replaced, ///< another unit is there, or the same one that has still to be done
     joined,   ///< another unit is there beside the last one: refuse_joined() comes next
+    doubled,  ///< as joined, but under one node ID: the last one may not be among them
     late,     ///< the deadline came first
   };
 
