@@ -270,7 +270,8 @@ void Change::conclude() {
 }
 
 void Change::conclude(const UnitChange& unit, GoalResult& result) {
-  result.is_done = unit.is_done && !is_unproven(result, unit);
+  const bool is_lacking = is_unproven(result, unit);
+  result.is_done = unit.is_done && !is_lacking;
   if (!unit.last) {
     return;
   }
@@ -280,10 +281,10 @@ void Change::conclude(const UnitChange& unit, GoalResult& result) {
   if (unit.has_made_way && (last.is_done() || !last.may_have_saved)) {
     result.errors.push_back(made_way(unit, result.goal.id));
   }
-  if (unit.is_done && !result.is_done) {
+  if (is_lacking) {
     tell_rom(result.change);
   }
-  if (unit.is_done && !result.is_done && !last.rom) {
+  if (is_lacking && !last.rom) {
     const std::uint8_t id = last.servo.id.value();
     result.errors.push_back(
         {Code::state, say<texts::restarts_while_read>(id), say<texts::restarts_again_hint>(), id});

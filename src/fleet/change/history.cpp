@@ -130,18 +130,6 @@ bla::Values replaced_by(const Plan& plan) {
   return can_go_back(identity, std::move(values));
 }
 
-/// What ROM may hold once it cannot be read: the IDs to be saved, else those of its proof.
-void History::keep_ids(const Plan& plan) {
-  state::Registers& ids = ids_in_rom_[*plan.before.servo.unique_id];
-  const bla::Values rom =
-      plan.restart == RestartKind::save ? plan.expected : last_proven_ids(plan.before.servo);
-  for (const auto& [address, raw] : rom) {
-    if (bla::is_id(address)) {
-      ids.insert_or_assign(address.value(), raw);
-    }
-  }
-}
-
 Result<void> History::drop_proofs(std::span<const Plan> plans) {
   std::vector<UniqueId> units;
   for (const Plan& plan : plans) {

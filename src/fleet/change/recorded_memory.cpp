@@ -342,6 +342,18 @@ bla::Values History::last_proven_ids(const Servo& servo) const {
   return held;
 }
 
+/// What ROM may hold once it cannot be read: the IDs to be saved, else those of its proof.
+void History::keep_ids(const Plan& plan) {
+  state::Registers& ids = ids_in_rom_[*plan.before.servo.unique_id];
+  const bla::Values rom =
+      plan.restart == RestartKind::save ? plan.expected : last_proven_ids(plan.before.servo);
+  for (const auto& [address, raw] : rom) {
+    if (bla::is_id(address)) {
+      ids.insert_or_assign(address.value(), raw);
+    }
+  }
+}
+
 bool History::is_rom_unread(const Servo& servo, const Session& session) {
   const auto proof = this->proof(servo, session);
   return proof && is_unread(*proof);
