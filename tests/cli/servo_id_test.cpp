@@ -5,7 +5,10 @@
 #include "scene.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <set>
 #include <string>
+#include <vector>
 
 using namespace blactl::test;
 
@@ -38,6 +41,30 @@ Document exchange_of_servo_ids() {
                        {"set", {{"servo_id", 3 - number}}}});
   }
   return {{"schema", "blactl-fleet/1"}, {"servos", entries}};
+}
+
+/// Servo 1 gets the ID of servo 2, and so on; the last one that of the first.
+Document ring_of_servo_ids(int size) {
+  Document entries = Document::array();
+  for (int number = 1; number <= size; ++number) {
+    entries.push_back({{"name", std::to_string(number)},
+                       {"match", {{"serial_number", number}}},
+                       {"set", {{"servo_id", number % size + 1}}}});
+  }
+  return {{"schema", "blactl-fleet/1"}, {"servos", entries}};
+}
+
+/// Servos 1 to 3; that with the number `failing` does not do as it is told.
+Scene numbered_with(int failing, const nlohmann::json& faults) {
+  Scene scene;
+  for (const int number : {1, 2, 3}) {
+    nlohmann::json more{{"serial_number", number}, {"servo_id", number}};
+    if (number == failing) {
+      more["faults"] = faults;
+    }
+    scene.servo("BLA21-12U-AB", 10 + number, more);
+  }
+  return scene;
 }
 
 } // namespace
@@ -84,7 +111,59 @@ TEST_CASE("a servo ID that another node has given to another servo meanwhile is 
   INFO(at << ' ' << applied.out << applied.err);
   CHECK(applied.status != 0);
   CHECK(contains(applied.err, "duplicate_servo_id"));
-  CHECK(fleet.rom_writes() == 1);
+  CHECK(fleet.rom_writes() == 3); // both make way, and one gets its ID
+}
+
+TEST_CASE("two servos never end with one servo ID in ROM, whichever fails in an exchange") {
+  const int size = GENERATE(2, 3);
+  const int failing = GENERATE(1, 2, 3);
+  if (failing > size) {
+    return;
+  }
+  const Fleet fleet(numbered_with(failing, {{"refuse_opcodes", true}}));
+  const Result applied = fleet.apply(ring_of_servo_ids(size));
+  INFO(size << ' ' << failing << applied.out << applied.err);
+  CHECK(applied.status != 0);
+  std::set<std::int64_t> in_rom;
+  for (int number = 1; number <= 3; ++number) { // that which refuses SAVE refuses a restart, too
+    in_rom.insert(number == failing ? number : fleet.rom(std::to_string(10 + number), "servo_id"));
+  }
+  CHECK(in_rom.size() == 3);
+}
+
+TEST_CASE("servo IDs change hands in a ring, and each is in the ROM of one servo") {
+  const int size = GENERATE(2, 3);
+  Fleet fleet(numbered());
+  const Result applied = fleet.apply(ring_of_servo_ids(size));
+  INFO(applied.out << applied.err);
+  CHECK(applied.status == 0);
+  std::vector<std::string> expected(3, "extra");
+  std::fill_n(expected.begin(), size, "changed");
+  CHECK(statuses(applied) == expected);
+  CHECK(contains(applied.err, "makes way for others"));
+  const auto document = json(applied.out);
+  CHECK(document["nodes"][0]["changes"][0]["before"] == 1);
+  CHECK(document["nodes"][0]["changes"][0]["after"] == 2);
+  CHECK(fleet.apply(ring_of_servo_ids(size)).status == 0);
+  for (int number = 1; number <= size; ++number) {
+    CHECK(fleet.rom(std::to_string(10 + number), "servo_id") == number % size + 1);
+  }
+}
+
+TEST_CASE("a servo gets the servo ID of one that gives it up, once that is proven") {
+  const bool fails = GENERATE(false, true);
+  Fleet fleet(numbered_with(fails ? 2 : 0, {{"refuse_opcodes", true}}));
+  const Document servos = {
+      {{"name", "one"}, {"match", {{"serial_number", 1}}}, {"set", {{"servo_id", 2}}}},
+      {{"name", "two"}, {"match", {{"serial_number", 2}}}, {"set", {{"servo_id", 9}}}}};
+  const Result applied = fleet.apply({{"schema", "blactl-fleet/1"}, {"servos", servos}});
+  INFO(applied.out << applied.err);
+  CHECK((applied.status == 0) == !fails);
+  if (fails) {
+    CHECK(contains(applied.err, "node 11 was to get servo ID 2, whose holder has failed"));
+  }
+  CHECK(fleet.rom("11", "servo_id") == (fails ? 1 : 2));
+  CHECK(fleet.rom_writes() == (fails ? 0 : 2));
 }
 
 TEST_CASE("a servo ID in RAM that the ROM of another servo holds is not saved") {

@@ -39,9 +39,15 @@ void tell_rom(ChangeResult& change) {
   }
 }
 
-/// Of a unit that waits on a temporary ID, where the rounds have broken off.
+/// Of a unit that waits with a temporary ID, where the rounds have broken off.
 Error made_way(const UnitChange& unit, NodeId before) {
   const std::uint8_t now = unit.now.value();
+  if (unit.temporary_servo_id) {
+    return {Code::state,
+            say<texts::has_made_way_by_servo_id>(now, *unit.temporary_servo_id,
+                                                 unit.saved_servo_id().value_or(0)),
+            say<texts::run_again_hint>(), now};
+  }
   return {Code::state,
           say<texts::has_made_way>(before.value(), now, unit.static_node_id()->value()),
           say<texts::run_again_hint>(), now};
@@ -278,7 +284,8 @@ void Change::conclude(const UnitChange& unit, GoalResult& result) {
   const ChangeResult& last = *unit.last;
   result.change = merged(std::move(result.change), last);
   result.errors = result.change.errors();
-  if (unit.has_made_way && (last.is_done() || !last.may_have_saved)) {
+  const bool waits = unit.has_made_way || unit.temporary_servo_id;
+  if (waits && (last.is_done() || !last.may_have_saved)) {
     result.errors.push_back(made_way(unit, result.goal.id));
   }
   if (is_lacking) {

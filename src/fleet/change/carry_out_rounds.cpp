@@ -1,6 +1,5 @@
 // Carries planned rounds out, one after the other: in each, all servos whose node ID is free.
 
-#include "blactl/bla/assignment.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/change/guard.hpp"
@@ -11,7 +10,11 @@
 #include "fleet/change/texts.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
+#include <optional>
+#include <set>
+#include <utility>
 
 namespace blactl::fleet {
 
@@ -20,20 +23,6 @@ using dronecan::NodeId;
 namespace {
 
 using Wish = state::AllocationStore::Wish;
-
-/// The same change, with another static node ID.
-Result<Wanted> with_static_id(const bla::Profiles& profiles, Wanted wanted, NodeId id) {
-  auto assignment = bla::make_assignment(profiles, bla::address::static_node_id.name(),
-                                         std::to_string(id.value()));
-  if (!assignment) {
-    return std::unexpected(assignment.error());
-  }
-  std::erase_if(wanted.assignments, [](const bla::Assignment& each) {
-    return each.parameter->address == bla::address::static_node_id;
-  });
-  wanted.assignments.push_back(std::move(*assignment));
-  return wanted;
-}
 
 /// Of a unit that failed: the static ID that its ROM may hold, for its next start; empty: it does
 /// not, or the unit has told since its start which one it has.
@@ -213,6 +202,10 @@ Rounds::Round Rounds::ready(const Round& round) {
       fail(step, why_not_free(*step.move));
       continue;
     }
+    if (auto taken = servo_id_not_free(step)) {
+      fail(step, std::move(*taken));
+      continue;
+    }
     steps.push_back(step);
   }
   return steps;
@@ -225,7 +218,7 @@ Result<Rounds::Sights> Rounds::look_again(const Round& steps) {
   std::vector<NodeId> nodes;
   for (const Step& step : steps) {
     const UnitChange& unit = units_[step.unit];
-    if (step.move && unit.last) {
+    if (unit.last) {
       nodes.push_back(unit.now);
       moved.insert_or_assign(unit.now, std::pair(step.unit, unit.wanted));
     }
@@ -267,10 +260,11 @@ std::optional<Error> Rounds::changed_since(const UnitChange& unit, const Snapsho
 /// The plan as made; a new one for a servo that makes way for others, or has done so.
 Result<Plan> Rounds::plan(const Step& step, const Sights& sights) {
   const UnitChange& unit = units_[step.unit];
-  if (!step.move || (!step.move->is_temporary && !unit.last)) {
+  const bool makes_way = step.temporary_servo_id || (step.move && step.move->is_temporary);
+  if (!makes_way && !unit.last) {
     return unit.plan;
   }
-  auto wanted = with_static_id(profiles_, unit.wanted, step.move->to);
+  const auto wanted = this->wanted(step);
   if (!wanted) {
     return std::unexpected(wanted.error());
   }
@@ -322,6 +316,11 @@ std::vector<Error> Rounds::carry_out(const Round& round, const Hook& hook) {
   if (const auto kept = put(steps); !kept) {
     return {kept.error()};
   }
+  for (const Step& step : steps) {
+    if (const auto given = servo_id_of(step)) {
+      units_[step.unit].servo_ids.insert(*given);
+    }
+  }
   auto carried_out = fleet::carry_out(session_, profiles_, plans, options_.manner);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     conclude(steps[i], std::move(carried_out.servos[i]), hook);
@@ -361,7 +360,12 @@ void Rounds::conclude(const Step& step, ChangeResult result, const Hook& hook) {
     return;
   }
   unit.has_made_way = step.move && step.move->is_temporary;
-  unit.is_done = !unit.has_made_way;
+  unit.temporary_servo_id = step.temporary_servo_id;
+  unit.is_done = !unit.has_made_way && !unit.temporary_servo_id;
+  if (unit.plan.restart == RestartKind::save) { // what ROM holds is proven
+    const auto given = servo_id_of(step);
+    unit.servo_ids = given ? std::set{*given} : std::set<std::int64_t>();
+  }
   if (step.move) {
     // its start on the new ID: what is heard on the old one later is another's
     const auto started = session_.roster().started(unit.now);

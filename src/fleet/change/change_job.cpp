@@ -156,12 +156,14 @@ std::unique_ptr<SaveRestartJob> ChangeJob::restart() const {
 std::unique_ptr<WriteJob> ChangeJob::write() const {
   const bool is_read_later = plan_.restart == RestartKind::save;
   const auto echo = is_read_later ? WriteJob::Echo::suffices : WriteJob::Echo::is_checked;
-  return std::make_unique<WriteJob>(roster_, servo_, plan_.changes,
-                                    WriteJob::Options{.patience = options_.identification.patience,
-                                                      .echo = echo,
-                                                      .may_be_driven = may_be_driven(),
-                                                      .while_driven = options_.while_driven,
-                                                      .premises = premises()});
+  return std::make_unique<WriteJob>(
+      roster_, servo_, plan_.changes,
+      WriteJob::Options{.patience = options_.identification.patience,
+                        .echo = echo,
+                        .may_be_driven = may_be_driven(),
+                        .while_driven = options_.while_driven,
+                        .premises = premises(),
+                        .surveyed = options_.pace != nullptr ? options_.pace->surveyed : never});
 }
 
 /// Begins a stage; one without requests ends at once.

@@ -54,6 +54,25 @@ inline constexpr Text stays_out_of_the_way{
     "still have node ID {}",
     "ノード {} は一時的なノード ID のまま保存されています (変更に失敗したサーボがノード ID {} "
     "を使用している可能性があります)"};
+inline constexpr Text will_make_way_by_servo_id{
+    "node {} makes way for others: it is saved twice, servo ID {} comes in between",
+    "ノード {} は ID 入替えのため一時的にサーボ ID {} を使用します (保存は 2 回)"};
+inline constexpr Text servo_id_is_not_left{
+    "node {} was to get servo ID {}, whose holder has failed and may still have it: nothing was "
+    "changed",
+    "ノード {} に割り当てるサーボ ID {} "
+    "は、変更に失敗したサーボが使用している可能性があるため、変更していません"};
+inline constexpr Text servo_id_stays_out_of_the_way{
+    "node {} is saved with servo ID {}, which was to be temporary: the holder of servo ID {} has "
+    "failed, and may still have it",
+    "ノード {} は一時的なサーボ ID {} のまま保存されています (変更に失敗したサーボがサーボ ID {} "
+    "を使用している可能性があります)"};
+inline constexpr Text no_temporary_servo_id{
+    "node {} must make way for others, and no servo ID is free for it in the meantime",
+    "ノード {} の ID 入替えに必要な空きサーボ ID がありません"};
+inline constexpr Text no_temporary_servo_id_hint{
+    "take a servo off the bus, and run the command again",
+    "サーボを 1 台取り外してから再実行して下さい"};
 inline constexpr Text id_taken_over{
     "node ID {} was given to uid:{}, which is not on this bus: node {} gets it now",
     "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当てます"};

@@ -122,7 +122,7 @@ bool History::is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
 }
 
 /// Goes on after tries that were saved: undo goes back through them, as far as they are still
-/// there. A node ID always is: it may be a temporary one, which the tries do not name.
+/// there. An ID always is: it may be a temporary one, which the tries do not name.
 Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, const Session& session) {
   const std::int64_t run = tried.run;
   run_ = joined_ = std::max(run_, run);
@@ -134,7 +134,7 @@ Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, const S
     const auto is_written = [&](std::optional<std::int64_t> raw) {
       return raw && values->second.contains(*raw);
     };
-    return values != written.end() && address != bla::address::static_node_id &&
+    return values != written.end() && !bla::is_id(address) &&
            !is_written(plan.before.raw(address)) && !is_written(bla::find(rom, address));
   };
   std::vector<state::SnapshotEntry> shorter;

@@ -75,11 +75,19 @@ std::optional<NodeId> UnitChange::static_node_id() const {
 
 std::vector<Error> Rounds::prepare(std::vector<UnitTask> tasks) {
   auto errors = make_plans(std::move(tasks));
+  if (!errors.empty()) {
+    return errors;
+  }
+  const auto survey = look_around();
+  if (!survey) {
+    return {survey.error()};
+  }
+  errors = make_rounds();
   if (errors.empty()) {
-    errors = make_rounds();
+    errors = check_ids(*survey);
   }
   if (errors.empty()) {
-    errors = check_ids();
+    errors = make_way(*survey);
   }
   return errors.empty() ? check() : errors;
 }
@@ -115,6 +123,25 @@ Result<void> Rounds::learn_ids() {
   return discovery.find_all(bus_watch_time);
 }
 
+/// Who has which IDs, of all on the bus.
+Result<Survey> Rounds::look_around() {
+  if (!wishes_of(units_).empty()) {
+    if (const auto learned = learn_ids(); !learned) {
+      return std::unexpected(learned.error());
+    }
+  }
+  auto survey = fleet::survey(session_, profiles_, plans(), options_.manner.identification,
+                              options_.manner.proofs);
+  surveyed_ = options_.manner.surveyed = session_.roster().last_heard();
+  for (const UnitChange& unit : units_) {
+    options_.manner.own.insert(unit.unique_id);
+  }
+  if (survey) {
+    learn_servo_ids(*survey);
+  }
+  return survey;
+}
+
 /// The allocation table; if it cannot be used, one that ends with this change: the caller of
 /// `not_kept` decides whether that is a reason to change nothing.
 Result<state::AllocationStore*> Rounds::table() {
@@ -147,9 +174,6 @@ std::vector<Error> Rounds::make_rounds() {
       return {{Code::duplicate_node_id, say<texts::node_id_is_ours>(own->node_id.value()),
                say<texts::node_id_is_ours_hint>(), own->node_id.value()}};
     }
-    if (const auto learned = learn_ids(); !learned) {
-      return {learned.error()};
-    }
     const auto table = this->table();
     const auto ids = table ? taken_ids(session_.roster(), **table, wishes)
                            : Result<TakenIds>(std::unexpected(table.error()));
@@ -179,7 +203,7 @@ void Rounds::add_rounds(const IdRounds& moves) {
     for (const IdMove& move : moves[r]) {
       const auto found = std::ranges::find(units_, move.unique_id, &UnitChange::unique_id);
       const auto unit = static_cast<std::size_t>(found - units_.begin());
-      rounds_[r].push_back({unit, move});
+      rounds_[r].push_back({.unit = unit, .move = move});
       moving.insert(unit);
       if (move.is_temporary) {
         notes_.push_back(say<texts::will_make_way>(move.from.value(), move.to.value()));
@@ -191,7 +215,7 @@ void Rounds::add_rounds(const IdRounds& moves) {
   }
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (!moving.contains(i) && !units_[i].static_node_id()) {
-      rounds_.front().push_back({i, std::nullopt});
+      rounds_.front().push_back({.unit = i});
     }
   }
 }
@@ -235,25 +259,16 @@ std::vector<Error> Rounds::check_unread(const Survey& survey, std::span<const Pl
 
 /// Checks that no other servo has the assigned servo IDs, or the static node IDs that are only
 /// written to RAM: those that are saved are checked by the rounds.
-std::vector<Error> Rounds::check_ids() {
+std::vector<Error> Rounds::check_ids(const Survey& survey) {
   const std::vector<Plan> plans = this->plans();
-  const auto survey = fleet::survey(session_, profiles_, plans, options_.manner.identification,
-                                    options_.manner.proofs);
-  if (!survey) {
-    return {survey.error()};
-  }
-  surveyed_ = options_.manner.surveyed = session_.roster().last_heard();
-  for (const UnitChange& unit : units_) {
-    options_.manner.own.insert(unit.unique_id);
-  }
-  for (const NodeId id : survey->silent) {
+  for (const NodeId id : survey.silent) {
     notes_.push_back(say<texts::did_not_tell_ids>(id.value()));
   }
-  auto errors = check_unread(*survey, plans);
+  auto errors = check_unread(survey, plans);
   for (const Plan& plan : plans) {
-    auto error = plan.restart == RestartKind::save ? servo_id_conflict(*survey, plans, plan)
-                                                   : conflict(*survey, plans, plan);
-    error = error ? std::move(error) : rom_node_id_conflict(*survey, plans, plan);
+    auto error = plan.restart == RestartKind::save ? servo_id_conflict(survey, plans, plan)
+                                                   : conflict(survey, plans, plan);
+    error = error ? std::move(error) : rom_node_id_conflict(survey, plans, plan);
     if (error) {
       errors.push_back(std::move(*error));
     }

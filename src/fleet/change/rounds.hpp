@@ -1,6 +1,6 @@
 #pragma once
 // Changes several servos, each to its wanted state: all at once, except those that wait for a node
-// ID that another one still has (id_moves.hpp). Used by Change only.
+// ID that another one still has (id_moves.hpp), or for a servo ID. Used by Change only.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
@@ -12,9 +12,11 @@
 #include "blactl/state/allocation_store.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -36,9 +38,14 @@ struct UnitChange {
   bool is_done = false;               ///< it holds the goal, proven as far as required
   std::optional<ChangeResult> last{}; ///< of its last restart or write; empty: not begun
   bool has_made_way = false;          ///< it is on a temporary ID
+  std::set<std::int64_t> servo_ids{}; ///< that its RAM or ROM holds, or may hold
+  std::optional<std::int64_t> temporary_servo_id{}; ///< that it is saved with, for others
 
   /// The static node ID stored by SAVE; empty: none, or its present one.
   [[nodiscard]] std::optional<dronecan::NodeId> static_node_id() const;
+
+  /// The servo ID stored by SAVE; empty: none.
+  [[nodiscard]] std::optional<std::int64_t> saved_servo_id() const;
 
   [[nodiscard]] bool has_failed() const { return last && !last->is_done(); }
 };
@@ -85,7 +92,8 @@ class Rounds {
   /// One unit in one round; without a move it stays on its node ID.
   struct Step {
     std::size_t unit;
-    std::optional<IdMove> move;
+    std::optional<IdMove> move{};
+    std::optional<std::int64_t> temporary_servo_id{}; ///< with which it makes way for others
   };
 
   using Round = std::vector<Step>;
@@ -93,15 +101,31 @@ class Rounds {
 
   // Planning (rounds.cpp).
   [[nodiscard]] std::vector<Error> make_plans(std::vector<UnitTask> tasks);
+  [[nodiscard]] Result<Survey> look_around();
   [[nodiscard]] std::vector<Error> make_rounds();
   void add_rounds(const IdRounds& moves);
   [[nodiscard]] Result<void> learn_ids();
   [[nodiscard]] Result<state::AllocationStore*> table();
   void note_takeovers();
-  [[nodiscard]] std::vector<Error> check_ids();
+  [[nodiscard]] std::vector<Error> check_ids(const Survey& survey);
   [[nodiscard]] std::vector<Error> check_unread(const Survey& survey, std::span<const Plan> plans);
   [[nodiscard]] std::vector<Error> check() const;
   [[nodiscard]] std::vector<Plan> plans() const;
+
+  // Servo IDs that change hands (servo_id_moves.cpp).
+  void learn_servo_ids(const Survey& survey);
+  [[nodiscard]] std::vector<Error> make_way(const Survey& survey);
+  [[nodiscard]] std::optional<Error> take_temporary(Step& step, const Survey& survey) const;
+  [[nodiscard]] std::optional<Error> put_first(std::size_t number, const Survey& survey);
+  [[nodiscard]] std::pair<std::size_t, std::size_t> rounds_of(std::size_t unit) const;
+  [[nodiscard]] bool is_waited_for(std::size_t unit) const;
+  [[nodiscard]] bool waits_for_servo_id(const UnitChange& unit) const;
+  [[nodiscard]] bool may_be_held(std::int64_t servo_id, const UnitChange& except) const;
+  [[nodiscard]] std::optional<std::int64_t> free_servo_id(const UnitChange& unit,
+                                                          const Survey& survey) const;
+  [[nodiscard]] std::optional<std::int64_t> servo_id_of(const Step& step) const;
+  [[nodiscard]] Result<Wanted> wanted(const Step& step) const;
+  [[nodiscard]] std::optional<Error> servo_id_not_free(const Step& step) const;
 
   // Carrying out (carry_out_rounds.cpp).
   [[nodiscard]] bool is_free(const IdMove& move) const;

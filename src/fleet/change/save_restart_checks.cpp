@@ -9,6 +9,7 @@
 #include "fleet/change/id_texts.hpp"
 #include "fleet/change/texts.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <utility>
@@ -118,6 +119,12 @@ const Member* SaveRestartJob::newcomer_with_servo_id() const {
              : nullptr;
 }
 
+/// Since when it is not asked who has the given servo ID, but heard: the servo itself may have been
+/// read again since the others were asked.
+Time SaveRestartJob::asked_since() const {
+  return options_.pace != nullptr ? std::min(servo_.since, options_.pace->surveyed) : servo_.since;
+}
+
 /// Why the IDs that the servo is to have are not free any more; empty: they are, as far as heard.
 std::optional<Error> SaveRestartJob::taken_id() const {
   const std::uint8_t id = id_.value();
@@ -132,7 +139,7 @@ std::optional<Error> SaveRestartJob::taken_id() const {
   const Member* newcomer = newcomer_with_servo_id();
   const auto holder = newcomer != nullptr
                           ? std::optional(newcomer->id)
-                          : roster_.giver_of_servo_id(*options_.given_servo_id, id_, servo_.since);
+                          : roster_.giver_of_servo_id(*options_.given_servo_id, id_, asked_since());
   return holder ? std::optional(Error{Code::duplicate_servo_id,
                                       say<texts::servo_id_given_is_taken>(
                                           id, *options_.given_servo_id, holder->value()),

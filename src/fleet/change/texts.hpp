@@ -284,6 +284,11 @@ inline constexpr Text has_made_way{
     "node {} has made way for others: it is saved as node {}, and has not got node ID {} yet",
     "ノード {} は他のサーボに ID を譲りました。ノード {} として保存済みで、ノード ID {} "
     "は未設定です"};
+inline constexpr Text has_made_way_by_servo_id{
+    "node {} has made way for others: it is saved with servo ID {}, and has not got servo ID {} "
+    "yet",
+    "ノード {} は他のサーボに ID を譲りました。サーボ ID {} で保存済みで、サーボ ID {} "
+    "は未設定です"};
 inline constexpr Text restarted_before_erase{"node {} restarted: nothing more was sent to it",
                                              "ノード {} が再起動したため、以後は送信していません"};
 inline constexpr Text opcode_refused{"node {} refused {}", "ノード {} が {} を拒否しました"};

@@ -122,8 +122,10 @@ std::optional<Error> WriteJob::not_any_more() const {
                  say<texts::id_given_is_kept_hint>(), id};
   }
   const auto servo_id = next_servo_id().value_or(0);
-  const auto holder =
-      servo_id != 0 ? roster_.giver_of_servo_id(servo_id, servo_.id, servo_.since) : std::nullopt;
+  const auto holder = servo_id != 0
+                          ? roster_.giver_of_servo_id(servo_id, servo_.id,
+                                                      std::min(servo_.since, options_.surveyed))
+                          : std::nullopt;
   if (holder) {
     return Error{Code::duplicate_servo_id,
                  say<texts::servo_id_given_is_taken>(id, servo_id, holder->value()),

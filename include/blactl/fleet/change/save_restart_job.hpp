@@ -116,6 +116,7 @@ class SaveRestartJob final : public dronecan::Job {
   [[nodiscard]] bool is_leaving(dronecan::NodeId id) const;
   [[nodiscard]] bool is_expected_id_taken() const;
   [[nodiscard]] const Member* newcomer_with_servo_id() const;
+  [[nodiscard]] Time asked_since() const;
   [[nodiscard]] std::optional<Error> taken_id() const;
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step request(Time now);

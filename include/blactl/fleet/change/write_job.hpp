@@ -48,6 +48,7 @@ class WriteJob final : public dronecan::Job {
     bool may_be_driven = false; ///< also while another node drives the servo
     bool while_driven = false;  ///< also a servo ID that another node commands
     std::vector<Premise> premises{};
+    Time surveyed = never; ///< when all others were asked for their servo IDs
   };
 
   /// `roster` outlives the job.
