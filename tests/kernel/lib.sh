@@ -101,6 +101,16 @@ expect_frames() {
   [ "$count" -eq "$1" ] || fail "expected $1 frames with ID $2, the witness saw $count"
 }
 
+# expect_answered N REQUESTS RESPONSES: at least that many requests of one frame each, and as many
+# responses, whose frames have the other ID.
+expect_answered() {
+  local requests responses
+  requests=$(frames_with "$2")
+  [ "$requests" -ge "$1" ] || fail "expected $1 requests with ID $2, the witness saw $requests"
+  responses=$(awk -v pattern="^($3)#.*[89A-F].$" '$3 ~ pattern { ++n } END { print n + 0 }' "$witness_log")
+  [ "$responses" -eq "$requests" ] || fail "of $requests requests with ID $2 $responses were answered"
+}
+
 # codes LIST: those of "findings" or "fixed" in the document of the last run, in its order.
 codes() {
   echo "$out" | awk -v list="\"$1\": [" -F '"' '
