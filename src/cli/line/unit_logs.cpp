@@ -36,7 +36,7 @@ Result<void> UnitLogs::open() {
   if (auto fit = check_target(present, Content::log, "--logs"); !fit) {
     return fit;
   }
-  std::ofstream(present, std::ios::app); // there is something to hold
+  std::ofstream(present, std::ios::app).close(); // there is something to hold
   auto hold = FileHold::take(present);
   if (!hold) {
     return std::unexpected(hold.error().code == Code::busy ? hold.error()
